@@ -105,6 +105,62 @@ def test_a_block_of_the_duty_shares_power_in_its_own_way(tmp_path, loop):
     assert [block.share for block in pump.blocks] == [0.5, 0.5]
 
 
+SQUARE = """\
+format_version = 1
+[chain]
+designation = "08B-1"
+[drive]
+joint_friction = 0
+[wear]
+condition = "hardened, oiled"
+"""
+
+
+def square(shares, level, blocks):
+    """Two drivers and two driven sprockets of 19 teeth by turns at the corners of a square of 400 mm."""
+    places = {"A": [0, 0], "X": [400, 0], "B": [400, 400], "Y": [0, 400]}
+    wheels = [
+        f"[[sprocket]]\nname = {name!r}\nteeth = 19\nprofile = 'iso606'\nnodes = 41\nposition_mm = {place}\n"
+        f"role = {'driver' if name in 'AB' else 'driven'!r}\npower_share = {shares[name]}\n"
+        for name, place in places.items()
+    ]
+    taker = "take_up = {guide_deg = 90}\n"
+    duty = [
+        f"[[duty]]\nshare_of_time = {1 / len(blocks)}\npower_kW = 1\nspeed_rpm = 300\n" + extra
+        for extra in blocks
+    ]
+    return SQUARE.replace("[wear]", f"{level}\n[wear]") + "".join([*wheels, taker, *duty])
+
+
+@pytest.mark.parametrize(
+    ("slack", "a", "x", "y"), [(60.0, 0.5, 0.8, 0.2), (300.0, 0.5, 0.8, 0.2), (80.0, 0.2, 0.5, 0.5)]
+)
+def test_the_loosest_span_is_that_of_each_block(slack, a, x, y):
+    """Its own shares tell which span of a block has the slack tension; by hand from wheel to wheel."""
+    own = {"A": a, "X": 0.35, "B": 1.0 - a, "Y": 0.65}
+    text = square(own, f"slack_tension_N = {slack}", ["", f"power_share = {{X = {x}, Y = {y}}}\n"])
+    blocks = load_drive(tomllib.loads(text)).driver.drive.blocks
+    pull = 1e6 / (300.0 / 60.0 * 19 * 12.7)
+    for block, (taken_x, taken_y) in zip(blocks, [(0.35, 0.65), (x, y)], strict=True):
+        spans = [0.0]  # A to X, X to B, B to Y, Y to A, over that of A to X
+        for change in (taken_x, a - 1.0, taken_y):
+            spans.append(spans[-1] + change * pull)
+        expected = [slack + span - min(spans) for span in spans]
+        assert list(block.spans) == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_sag_is_that_of_the_loosest_span_of_each_block():
+    """2 % of 400 mm on a flat span: w a/(8 s)."""
+    own = {"A": 0.5, "X": 0.2, "B": 0.5, "Y": 0.8}
+    text = square(own, "sag_percent = 2", ["", "power_share = {X = 0.8, Y = 0.2}\n"])
+    blocks = load_drive(tomllib.loads(text)).driver.drive.blocks
+    # Weight of the chain by its centrifugal tension q v^2, at 19 pitches of 12.7 mm five times a second.
+    weight = 9.81 * blocks[0].centrifugal / (300.0 / 60.0 * 19 * 0.0127) ** 2
+    for block, loosest in zip(blocks, (2, 0), strict=True):
+        assert block.spans.index(min(block.spans)) == loosest
+        assert block.spans[loosest] == pytest.approx(weight * 0.4 / (8.0 * 0.02), rel=0.03)
+
+
 def test_all_sprockets_live_with_the_same_chain(tmp_path, loop):
     path = tmp_path / "drive.toml"
     path.write_text(loop)

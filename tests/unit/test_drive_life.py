@@ -1,10 +1,13 @@
 """What is said of the sprockets of a drive, and how their runs end together."""
 
+import math
 import threading
 import time
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from wearsim.errors import ConvergenceError
 from wearsim.result import LimitState
@@ -101,3 +104,54 @@ def test_one_that_fails_stops_the_others(monkeypatch, drive):
     with pytest.raises(ConvergenceError, match="'cassette 17T': the cog of 17 teeth fails"):
         drive_life(drive, threads=5)
     assert not ran_on
+
+
+def chain_changes(result):
+    """Hours at which new chains are put on."""
+    hours, chains = result.history["time_hours"], result.history["chain"]
+    return hours[chains.diff() > 0].index.map(lambda row: hours[row - 1]).to_numpy()
+
+
+RUN_IN = {
+    **DRIVE,
+    "sprocket": [{**RING, "name": "a", "teeth": 15}, {**RING, "name": "b", "teeth": 38}],
+    "drive": {"links": 90, "slack_tension_N": 60},
+    "joint": {"specific_wear_rate_mm2_per_N": 2e-8},
+    "stop": {"elongation_percent": 1.5},
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-12, "running_in_factor": 4.0, "running_in_distance_mm": 3e5},
+}
+
+
+@pytest.mark.parametrize("cassette", [False, True])
+def test_joints_have_one_clock_of_running_in(cassette):
+    """That of their own way, 2 pi d2 sum(1/z) in a loop: every chain lasts as long, seen from each sprocket."""
+    cogs = [{"teeth": teeth, "share_of_time": share} for teeth, share in ((13, 0.5), (19, 0.3), (30, 0.2))]
+    wheel = {"name": "b", "profile": "iso606", "nodes": 31, "cog": cogs}
+    tables = {**RUN_IN, "sprocket": [RUN_IN["sprocket"][0], wheel]} if cassette else RUN_IN
+    steady = {**tables, "wear": {"specific_wear_rate_mm2_per_N": 1e-12}}
+    horizon = {"run": {"life_tolerance": 0.1, "horizon_hours": 400.0}}
+    constant = drive_life(load_drive({**steady, **horizon})).chain.hours
+    loops = 60.0 * 100.0 * 15 / 90  # in an hour
+    turned = 1 / 15 + (sum(cog["share_of_time"] / cog["teeth"] for cog in cogs) if cassette else 1 / 38)
+    run_in = 3e5 / (2.0 * math.pi * 4.45 * turned * loops)  # hours
+    # tau = N + 3 N_r (1 - exp(-N/N_r)) is the life of constant coefficient.
+    life = brentq(lambda n: n - 3.0 * run_in * math.expm1(-n / run_in) - constant, 0.0, constant)
+    found = drive_life(load_drive({**tables, "run": {"life_tolerance": 0.1, "horizon_hours": 2.2 * life}}))
+    for result in found.results.values():
+        assert result.parts["chain"].hours == pytest.approx(life, rel=1e-6)
+        assert chain_changes(result) == pytest.approx([life, 2.0 * life], rel=1e-6)
+
+
+@pytest.mark.parametrize("running_in", [1.0, 4.0])
+def test_a_new_chain_comes_lubricated(running_in):
+    """With a lubricant that lasts half a chain and is never renewed every chain lasts as long as the first."""
+    wear = {**RUN_IN["wear"], "running_in_factor": running_in}
+    lubrication = {"lasts_hours": 20.0, "dry_factor": 5.0}
+    run = {"life_tolerance": 0.1, "horizon_hours": 140.0}
+    found = drive_life(load_drive({**RUN_IN, "wear": wear, "lubrication": lubrication, "run": run}))
+    life = found.chain.hours
+    assert 20.0 < life < 70.0
+    for result in found.results.values():
+        changes = chain_changes(result)
+        assert changes == pytest.approx(life * (1.0 + np.arange(changes.size)), rel=1e-6) and changes.size > 1
+    assert any("new chain come lubricated" in text for text in found.drive.assumptions)

@@ -1,5 +1,6 @@
 """Rollers on an elastic foundation that wears: kernels on closed forms, steps, order and errors."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -148,6 +149,51 @@ def test_phases_hold_the_whole_pitch(wrap, count):
     assert place.size == weight.size == count
     assert weight.sum() == pytest.approx(1.0, rel=1e-12)
     assert (np.diff(place) > 0.0).all() and place[0] > 0.0 and place[-1] < 1.0
+
+
+def straight_wrap(degrees, tension, nodes, teeth):
+    """An idler that two spans of nearly the same small tension wrap over a few degrees."""
+    found = contact(
+        f"sprocket.nodes={nodes}", f"sprocket.teeth={teeth}", "drive.joint_friction=0", "mechanism.phases=6"
+    )
+    block, mechanism = found.blocks[0], found.mechanism
+    pull = replace(mechanism.pull, tight=1.0001 * tension, slack=tension)
+    mechanism = replace(mechanism, wrap_angle=math.radians(degrees), pull=pull)
+    return replace(found, blocks=(replace(block, mechanism=mechanism),))
+
+
+@pytest.mark.parametrize("nodes", [41, 101, 201])
+@pytest.mark.parametrize(
+    ("degrees", "tension", "teeth"),
+    [
+        (23.06, 60.2, 20),
+        (4.77, 60.2, 14),
+        (17.56, 9.9, 14),
+        (36.45, 15.0, 34),
+        (43.15, 6.9, 20),
+        (9.5, 2.0, 40),
+    ],
+)
+def test_lightly_pulled_wraps_are_found_and_bear_the_strands(nodes, degrees, tension, teeth):
+    """Their energy is near 0, so that its rounding is above 1e-11 of it. Teeth and strands balance in each phase."""
+    bodies = SeatedBodies(straight_wrap(degrees, tension, nodes, teeth), LAW, None)
+    bodies._seat()
+    seating, mechanism = bodies.seating, bodies.contact.mechanism
+    angle, event = mechanism.pitch_angle, 0
+    for _ in range(seating.kinds):
+        for phase in seating.phases[0]:
+            rollers = mechanism.rollers(float(phase))
+            x, y = seating.seats[[seats.LOAD_X, seats.LOAD_Y], event : event + rollers]
+            turn = angle * np.arange(rollers)
+            on_teeth = bodies.contact.face_width * np.array(
+                [(np.cos(turn) * x + np.sin(turn) * y).sum(), (np.cos(turn) * y - np.sin(turn) * x).sum()]
+            )
+            tight = angle * (phase - 0.5)
+            slack = math.radians(degrees) - tight
+            strands = mechanism.pull.tight * np.array([-math.cos(tight), -math.sin(tight)])
+            strands += mechanism.pull.slack * np.array([math.cos(slack), -math.sin(slack)])
+            assert on_teeth == pytest.approx(-strands, abs=1e-5 * tension)
+            event += seating.most
 
 
 # -- runs ----------------------------------------------------------------------------------------

@@ -322,13 +322,15 @@ def _assumptions(found: LubricationInput) -> Iterator[str]:
     """What the state of the lubricant takes for granted."""
     if found.lasts is not ENDLESS or found.dirt.excess or found.phases:
         yield (
-            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; new chains "
-            "do not change it"
+            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; the joints of "
+            "a new chain come lubricated and clean, and are relubricated when the drive is; a new chain does "
+            "not lubricate the teeth"
         )
     if found.phases:
         yield (
             "lubrication.phase: relubrications are spread evenly over a phase, the first at its begin, "
-            "contaminations in the middle of equal parts; after the last phase the first follows"
+            "contaminations in the middle of equal parts; where both come at one time contacts are "
+            "relubricated first, and stay dirty; after the last phase the first follows"
         )
     if found.at_hours and found.interval is None:
         yield f"lubrication: after {found.at_hours[-1]:g} h contacts are not relubricated any more"

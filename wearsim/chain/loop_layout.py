@@ -110,7 +110,12 @@ class LoopLayout:
         return math.sqrt(0.375 * excess / float(self.loop.span_lengths[span]))
 
     def level(
-        self, mass_per_length: float, slack_tension: float | None, sag: float | None, link_stiffness: float
+        self,
+        mass_per_length: float,
+        slack_tension: float | None,
+        sag: float | None,
+        link_stiffness: float,
+        shares: tuple[float, ...] = (),
     ) -> SpanLevel:
         """Return what sets the tensions: a given tension, a force of the take-up, or a span that sags.
 
@@ -124,8 +129,10 @@ class LoopLayout:
             Sag of the loosest span over its length; None for that of the excess of links.
         link_stiffness : float
             Stiffness of a link [N/mm], by which a chain stretches that has no excess.
+        shares : tuple of float
+            Of each wheel in the power, by which one span is the loosest; by default those of the drive.
         """
-        loosest = looser_span(self.loop, self.drive.shares)
+        loosest = looser_span(self.loop, shares or self.drive.shares)
         take_up = self.drive.take_up
         if slack_tension is not None:
             return SpanLevel(slack_tension, span=loosest)

@@ -29,6 +29,8 @@ _MAX_ITERATIONS = 5000
 _MAX_ROUNDS = 200
 _LONGEST_STEP = 12.0
 _ROUNDING = 1e-11
+DIGITS = 4e-15
+"""Rounding of the energy over tension times radius: forces times differences of coordinates."""
 _HANGING = 1e-4
 """How far a roller aloft may hang inside the tooth, in pitches."""
 
@@ -234,6 +236,8 @@ def settle(
     place_rollers(locus, other, first, rollers, position, pitch_angle, work)
     energy = balance(first, rollers, constants, tight_angle, slack_angle, work, tension)
     error = residual(rollers, work)
+    # Of a wrap that is nearly straight and lightly pulled the energy may be near 0, and its rounding is not.
+    rounding = DIGITS * constants[TIGHT_TENSION] * (abs(work[CENTRE_X, 0]) + abs(work[CENTRE_Y, 0]))
     for _ in range(_MAX_ITERATIONS):
         if error <= tolerance:
             return SEATED
@@ -257,7 +261,7 @@ def settle(
         place_rollers(locus, other, first, rollers, trial, pitch_angle, work)
         after = balance(first, rollers, constants, tight_angle, slack_angle, work, tension)
         remaining = residual(rollers, work)
-        level = abs(after - energy) <= _ROUNDING * abs(energy) and remaining < error
+        level = abs(after - energy) <= _ROUNDING * abs(energy) + rounding and remaining < error
         if after <= energy + 1e-4 * slope or level:
             for i in range(rollers):
                 position[i] = trial[i]

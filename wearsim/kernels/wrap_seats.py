@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.wrap_equilibrium import (
+    DIGITS,
     PITCH_ANGLE,
     PITCH_EVEN,
     PITCH_ODD,
@@ -471,6 +472,8 @@ def balance_rollers(
         cells,
     )
     error = largest_of(rollers, _RIGHT_X, work)
+    # Of a wrap that is nearly straight and lightly pulled the energy may be near 0, and its rounding is not.
+    rounding = DIGITS * constants[TIGHT_TENSION] * (abs(work[_TRIAL_X, 0]) + abs(work[_TRIAL_Y, 0]))
     for _ in range(_MAX_ITERATIONS):
         if error <= tolerance:
             return SEATED
@@ -519,7 +522,7 @@ def balance_rollers(
             cells,
         )
         left = largest_of(rollers, _RIGHT_X, work)
-        level = abs(after - energy) <= _ROUNDING * abs(energy)
+        level = abs(after - energy) <= _ROUNDING * abs(energy) + rounding
         falls = after < energy if came_upon == 1 else after <= energy + 1e-4 * slope
         if falls or (level and left < error):
             gain = 1.0 if level or came_upon == 1 else (after - energy) / slope

@@ -18,14 +18,14 @@ from wearsim.wear.lubricant_clock import (
     LubricantEvent,
     LubricantLaw,
     LubricantSchedule,
-    LubricatedClock,
 )
+from wearsim.wear.mate_clock import MateClock
 
 _APART = 1e-9
 """Part of the way between two rows of a history at which a third one is another one."""
 
-_OF_A_CHAIN = ("elongation_percent", "roller_wear_mm")
-"""Columns of the history that begin anew with each chain."""
+_KNEES = 200
+"""Rows that are added for the lubricants of all chains after the first one, at most."""
 
 
 def lubricant_clock(case: Case, sliding_per_cycle: float) -> LubricantClock:
@@ -114,22 +114,38 @@ def sliding_per_cycle(case: Case, contact: FlankContact) -> float:
 
 
 def with_knees(
-    history: dict[str, Vector], constant: Vector, clock: LubricatedClock, cycles_per_hour: float
+    history: dict[str, Vector],
+    constant: Vector,
+    chains: MateClock,
+    elongation_per_cycle: float,
+    cycles_per_hour: float,
 ) -> dict[str, Vector]:
-    """Return a history with rows where the lubricant gives out or is renewed, on the way to the next row."""
-    times = clock.lubricant.knees(float(history["cycles"][-1]))
-    steady = np.array([clock.steady_cycles(at) for at in times.tolist()])
+    """Return a history with rows where a lubricant gives out or is renewed, on the way to the next row."""
+    clock = chains.bodies
+    if clock.lubricant is FRESH:
+        return history
+    last = np.flatnonzero(np.diff(history["chain"]) > 0.0)
+    in_use = [chains.put_on(at) for at in (0.0, *constant[last].tolist())]
+    times = [clock.lubricant.knees(float(history["cycles"][-1]))]
+    ends = [*constant[last[1:]].tolist(), float(constant[-1])]
+    times += [chain.knees(end, _KNEES // len(ends)) for chain, end in zip(in_use[1:], ends, strict=False)]
+    cycles = np.sort(np.concatenate(times))
+    cycles = cycles[np.diff(cycles, prepend=-1.0) > _APART * cycles]
+    steady = np.array([clock.steady_cycles(at) for at in cycles.tolist()])
     after = np.searchsorted(constant, steady, side="right")
     inside = (after > 0) & (after < constant.size)
-    times, steady, after = times[inside], steady[inside], after[inside]
+    cycles, steady, after = cycles[inside], steady[inside], after[inside]
     share = (steady - constant[after - 1]) / (constant[after] - constant[after - 1])
     apart = (share > _APART) & (share < 1.0 - _APART)
-    times, share, after = times[apart], share[apart], after[apart]
+    cycles, steady, share, after = cycles[apart], steady[apart], share[apart], after[apart]
     before = after - 1
     renewed = history["chain"][after] != history["chain"][before]
     rows = {}
     for name, column in history.items():
-        start = np.where(renewed & (name in _OF_A_CHAIN), 0.0, column[before])
+        start = np.where(renewed & (name == "roller_wear_mm"), 0.0, column[before])
         rows[name] = start + share * (column[after] - start)
-    rows |= {"cycles": times, "time_hours": times / cycles_per_hour, "chain": history["chain"][after]}
+    number = history["chain"][after]
+    worn = [in_use[int(n) - 1].worn(at) for n, at in zip(number.tolist(), steady.tolist(), strict=True)]
+    rows |= {"cycles": cycles, "time_hours": cycles / cycles_per_hour, "chain": number}
+    rows["elongation_percent"] = 100.0 * elongation_per_cycle * np.array(worn)
     return {name: np.insert(column, after, rows[name]) for name, column in history.items()}

@@ -23,6 +23,7 @@ from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
 from wearsim.wear.lubricant_clock import LubricatedClock
+from wearsim.wear.mate_clock import MateClock
 from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
 from wearsim.wear.running_in import NO_RUNNING_IN
@@ -57,17 +58,17 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     warnings += _gave_up(run, horizon)
     constant = run.cycles
     run = replace(run, cycles=clock.running_cycles(constant))
-    chain = _chain_life(case, contact, horizon, clock)
+    chain = _chain_life(case, contact)
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
     ended = "chain" if stop == "elongation_percent" else "sprocket"
     bands = {
-        "chain": _band(case, "chain", chain, clock),
-        "sprocket": _band(case, "sprocket", sprocket, clock),
+        part: _band(case, part, its, _clock_of(case, part, contact, clock))
+        for part, its in (("chain", chain), ("sprocket", sprocket))
     }
     low, high = bands[ended]
     history, flank = _tables(case, contact, drive, run, law)
-    history = with_knees(history, constant, clock, case.cycles_per_hour)
+    history = with_knees(history, constant, law.mates, contact.elongation_per_cycle, case.cycles_per_hour)
     parts = {"chain": chain, "sprocket": sprocket}
     warnings += late_relubrication(case, clock.lubricant, parts)
     parts |= _fatigue(case, contact, law, (life, sprocket), warnings)
@@ -102,7 +103,7 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         bands=bands,
         ratings=ratings,
         practice=practice,
-        assumptions=(*contact.assumptions(), *clock_assumptions(clock.part), *case.assumptions),
+        assumptions=(*contact.assumptions(), *_clock_assumptions(case, law), *case.assumptions),
         warnings=tuple(warnings),
         inputs=with_files(case.inputs, ""),
         input_files=case.input_files,
@@ -131,10 +132,22 @@ def wrap_problem(
 ) -> tuple[WearLaw, tuple[StopLimit, ...], float, LubricatedClock]:
     """Return what a wrap asks of the wear engine."""
     clock = contact_clock(case, contact.sliding_per_cycle, contact.joint_sliding_per_cycle)
-    law = replace(wear_law(case.wear, case.wear.coefficient), running_in=clock.part)
+    mates = MateClock(clock, joint_clock(case, contact).part)
+    law = replace(wear_law(case.wear, case.wear.coefficient), running_in=clock.part, mates=mates)
     stop_limits = wrap_of(case).gap_limits(case, contact.mechanism.path)
     horizon = clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour)
     return law, stop_limits, horizon, clock
+
+
+def joint_clock(case: Case, contact: WrapContact) -> LubricatedClock:
+    """Return the clock of the joints of the first chain, from what they slide all round the loop."""
+    sliding = contact.joint_sliding_per_cycle
+    return contact_clock(case, sliding, sliding)
+
+
+def chain_clock(case: Case) -> LubricatedClock:
+    """Return the clock of the first chain of a case, in the cycles of its sprocket."""
+    return joint_clock(case, wrap_of(case).contact(case))
 
 
 def wrap_grid_study(case: Case, life_tolerance: float) -> GridStudy:
@@ -201,9 +214,10 @@ def _gave_up(run: RestingTrajectory, horizon: float) -> list[str]:
     ]
 
 
-def _chain_life(case: Case, contact: WrapContact, horizon: float, clock: WearClock) -> Life | LowerBound:
+def _chain_life(case: Case, contact: WrapContact) -> Life | LowerBound:
     """Life of a chain: but for running-in and lubricant its joints wear at a constant rate."""
-    cycles = contact.cycles_per_chain
+    cycles, clock = contact.cycles_per_chain, joint_clock(case, contact)
+    horizon = clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour)
     run = float(clock.running_cycles(np.array([min(cycles, horizon)]))[0])
     return life_of(run, case.cycles_per_hour, cycles <= horizon)
 
@@ -227,8 +241,14 @@ def part_band(case: Case, part: str, life: Life | LowerBound) -> tuple[Life | Lo
     """Return the life of chain or sprocket at the high and at the low end of its coefficient."""
     clock: WearClock = NO_RUNNING_IN
     if not (case.wear.is_steady and (case.lubrication is None or case.lubrication.steady)):
-        *_, clock = wrap_problem(case, wrap_of(case).contact(case))
+        contact = wrap_of(case).contact(case)
+        *_, teeth = wrap_problem(case, contact)
+        clock = _clock_of(case, part, contact, teeth)
     return _band(case, part, life, clock)
+
+
+def _clock_of(case: Case, part: str, contact: WrapContact, teeth: LubricatedClock) -> LubricatedClock:
+    return joint_clock(case, contact) if part == "chain" else teeth
 
 
 def _band(
@@ -236,6 +256,18 @@ def _band(
 ) -> tuple[Life | LowerBound, Life | LowerBound]:
     band = case.drive.wear_band(part, case.wear)
     return _scaled(life, band.high, case, clock), _scaled(life, band.low, case, clock)
+
+
+def _clock_assumptions(case: Case, law: WearLaw) -> tuple[str, ...]:
+    """Return what coefficients that change with the cycles take for granted, of teeth and of joints."""
+    found, joints = clock_assumptions(law.running_in), law.mates.mate
+    if joints == law.running_in:
+        return found
+    hours = joints.shortest / case.cycles_per_hour
+    return (
+        *found,
+        f"joints of every new chain run in by their own way on all sprockets, the excess falls to 1/e in {hours:.4g} h",
+    )
 
 
 def _scaled(life: Life | LowerBound, factor: float, case: Case, clock: WearClock) -> Life | LowerBound:

@@ -81,11 +81,13 @@ class _Snapshots:
 
     def add_between(self, bodies: WornBodies, before: WornState) -> None:
         """Add states of a step on whose cycles the parts run in, so that a history shows it."""
-        if bodies.running_in.is_steady:
+        clocks = bodies.running_in, bodies.chains.mate
+        if all(clock.is_steady for clock in clocks):
             return
         whole, after = bodies.cycles - before.cycles, bodies.state()
-        age = before.cycles - bodies.chain_new_at
-        count = min(int(whole / (_PART_OF_AGE * max(age, bodies.running_in.shortest))), SNAPSHOTS // 4)
+        age = before.cycles - bodies.chain_in_use.new_at
+        shortest = min(clock.shortest for clock in clocks if not clock.is_steady)
+        count = min(int(whole / (_PART_OF_AGE * max(age, shortest))), SNAPSHOTS // 4)
         for place in range(1, count + 1):
             self._add(before.on_the_way_to(after, place / (count + 1)))
 

@@ -13,6 +13,7 @@ import numpy as np
 from wearsim.contact.engagement import ContactKind
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.severity import BY_PRESSURE_SPEED, BY_T_GAMMA
+from wearsim.wear.mate_clock import STEADY, MateClock
 from wearsim.wear.running_in import NO_RUNNING_IN
 from wearsim.wear.severity import NO_SEVERITY, Severity, t_gamma_coefficient
 from wearsim.wear.wear_clock import WearClock
@@ -55,9 +56,10 @@ class WearLaw:
     speed_exponent: float  # n
     case_depth: float = math.inf  # depth of the hardened layer [mm], infinite where there is none
     core_factor: float = 1.0  # what the coefficient is multiplied by below it
-    # how the coefficient changes with the cycles. The engines count cycles of constant coefficient; it tells
-    # how a part that is renewed meanwhile runs in.
+    # how the coefficient changes with the cycles, of which the engines count those of constant coefficient,
+    # and how that of a mate does which is renewed meanwhile
     running_in: WearClock = NO_RUNNING_IN
+    mates: MateClock = STEADY
     severity: Severity = NO_SEVERITY
 
     def numbers(self, kind: ContactKind) -> Vector:

@@ -1,6 +1,7 @@
 """The state of the lubricant as a clock: cycles run, and lubricated ones that wear as much."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -133,6 +134,9 @@ class LubricantSchedule:
     # factor g at which contacts are relubricated after the last event; above what dirt alone gives
     threshold: float = math.inf
     then_every: float = math.inf  # interval at which they are relubricated after the last event [cycles]
+    # what happens once, before all that, and after how many cycles the schedule begins
+    before: tuple[LubricantEvent, ...] = ()
+    begins: float = 0.0
 
     @classmethod
     def every(cls, interval: float, dirt: float, ageing: float) -> "LubricantSchedule":
@@ -150,6 +154,7 @@ class _Stretch(NamedTuple):
     dirt: float  # C
     held: float  # what dirt adds at least
     ageing: float  # how many cycles a cycle makes older
+    events: tuple[LubricantEvent, ...] = ()  # what happened where it begins
 
     def near(self, other: "_Stretch", scale: float) -> bool:
         """Return whether age and dirt are those of another time."""
@@ -195,7 +200,13 @@ class LubricantClock:
         self._stretches: list[_Stretch] = []
         # Where the schedule begins to repeat itself, and its cycles and wear from then on.
         self._first, self._cycles, self._worn = 0, math.inf, math.inf
+        # What has happened since the last stretch began, and what happens where the first one comes again.
+        self._happened: list[LubricantEvent] = []
+        self._again: tuple[LubricantEvent, ...] = ()
         state = _Stretch(0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+        for event in schedule.before:
+            state = self._changed(self._run(state, event.after), event)
+        state = self._run(state, schedule.begins)
         if schedule.events:
             state = self._rounds(schedule, state)
         if math.isinf(schedule.repeats):
@@ -206,14 +217,14 @@ class LubricantClock:
     def _rounds(self, schedule: LubricantSchedule, state: _Stretch) -> _Stretch:
         """Follow a schedule, time and again where it repeats itself, until a state comes again."""
         while True:
-            start, first = state, len(self._stretches)
+            start, first, last = state, len(self._stretches), len(self._happened)
             for event in schedule.events:
                 state = self._changed(self._run(state, start.begin + event.after), event)
             if math.isinf(schedule.repeats):
                 return state
             state = self._run(state, start.begin + schedule.repeats)
             if state.near(start, schedule.repeats):
-                self._repeat(first, start, state)
+                self._repeat(first, last, start, state)
                 return state
 
     def _afterwards(self, schedule: LubricantSchedule, state: _Stretch) -> None:
@@ -225,17 +236,19 @@ class LubricantClock:
 
         age = age_at_end(state)
         while age < math.inf:
-            start, first = state, len(self._stretches)
+            start, first, last = state, len(self._stretches), len(self._happened)
             state = self._run(state, state.begin + max(age - state.age, 0.0) / state.ageing)
             state = self._changed(state, LubricantEvent(0.0, relubricated=True))
             if state.near(start, age):
-                self._repeat(first, start, state)
+                self._repeat(first, last, start, state)
                 return
             age = age_at_end(state)
         self._keep(state)
 
-    def _repeat(self, first: int, start: _Stretch, end: _Stretch) -> None:
+    def _repeat(self, first: int, last: int, start: _Stretch, end: _Stretch) -> None:
+        """Go on for ever with the stretches from the first on, which begins with what comes after the last."""
         self._first, self._cycles, self._worn = first, end.begin - start.begin, end.worn - start.worn
+        self._again = (*self._happened, *self._stretches[first].events[last:])
 
     def _run(self, state: _Stretch, end: float) -> _Stretch:
         """Let the lubricant age until a time."""
@@ -254,7 +267,8 @@ class LubricantClock:
                 f"lubrication: the schedule must repeat itself, but does not within {_MOST} stretches "
                 "between events: take fewer events, or relubrications that are more complete"
             )
-        self._stretches.append(state)
+        self._stretches.append(state._replace(events=tuple(self._happened)))
+        self._happened.clear()
 
     def _changed(self, state: _Stretch, event: LubricantEvent) -> _Stretch:
         """Return the lubricant after an event."""
@@ -262,6 +276,7 @@ class LubricantClock:
         if event.relubricated:
             age *= 1.0 - self.law.completeness
             dirt *= 1.0 - self.law.dirt_removed
+        self._happened.append(event)
         held = state.held if event.held is None else event.held
         ageing = state.ageing if event.ageing is None else event.ageing
         return state._replace(age=age, dirt=max(dirt, held, event.dirtied), held=held, ageing=ageing)
@@ -322,6 +337,42 @@ class LubricantClock:
         left = max(rest - stretch.worn, 0.0)
         cycles = stretch.begin + self.law.cycles_for(stretch.age, left, stretch.dirt, stretch.ageing)
         return cycles + rounds * self._cycles if rounds else cycles
+
+    def renewed(self, at: float) -> "LubricantClock":
+        """Return the clock of a part that is put on at a time, lubricated and clean, counted from there on.
+
+        What happens to the lubricant by the schedule happens to that of the part too, at the same times.
+
+        Examples
+        --------
+        Relubricated every 150 cycles, dry from the hundredth on. A part put on at 120 is lubricated, and
+        again at 150 and at 300, and dry from 250 on:
+
+        >>> every = LubricantSchedule((LubricantEvent(150.0, relubricated=True),), 150.0)
+        >>> part = LubricantClock(LubricantLaw(4.0, 100.0), every).renewed(120.0)
+        >>> part.steady_cycles(30.0), part.steady_cycles(140.0), part.steady_cycles(180.0)
+        (30.0, 170.0, 330.0)
+        """
+        _, rest, stretch = self._place(at)
+        number = self._stretches.index(stretch) + 1
+        begin = LubricantEvent(0.0, held=stretch.held, ageing=stretch.ageing)
+
+        def events(stretches: list[_Stretch], start: float) -> Iterator[LubricantEvent]:
+            for later in stretches:
+                yield from (event._replace(after=later.begin - start) for event in later.events)
+
+        before = begin, *events(self._stretches[number:], rest)
+        if math.isinf(self._cycles):
+            return LubricantClock(self.law, LubricantSchedule(before=before))
+        first = self._stretches[self._first]
+        again = (event._replace(after=0.0) for event in self._again)
+        once_more = events(self._stretches[self._first + 1 :], first.begin)
+        return LubricantClock(
+            self.law,
+            LubricantSchedule(
+                (*again, *once_more), self._cycles, before=before, begins=first.begin + self._cycles - rest
+            ),
+        )
 
     def factor(self, cycles: float) -> float:
         """Return g at a time."""

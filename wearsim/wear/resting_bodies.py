@@ -125,7 +125,8 @@ class WornBodies:
         self.pressures = np.zeros((0, points))
         self.memory = contact.memory()
         self.wear, self.cycles, self.chain = NEW_CHAIN, 0.0, 1
-        self.running_in, self.chain_new_at = law.running_in, 0.0
+        self.running_in, self.chains = law.running_in, law.mates
+        self.chain_in_use = self.chains.put_on(0.0)
         self.updates, self.removed, self.speed = 0, 0.0, 0.0
         if start is not None:
             self._begin(profile, start)
@@ -192,12 +193,12 @@ class WornBodies:
 
     def joint_cycles(self, until: float) -> float:
         """Return for how many cycles of constant coefficient the chain in use has worn."""
-        return self.running_in.renewed(self.chain_new_at, until)
+        return self.chain_in_use.worn(until)
 
     def cycles_to(self, elongation: float) -> float:
         """Return the cycles from now until the chain in use is longer by so much."""
         worn = self.joint_cycles(self.cycles) + elongation / self.contact.elongation_per_cycle
-        cycles = self.running_in.until_renewed(self.chain_new_at, worn) - self.cycles
+        cycles = self.chain_in_use.until(worn) - self.cycles
         return max(cycles, _LEAST * self.cycles)
 
     @property
@@ -209,7 +210,8 @@ class WornBodies:
 
     def replace_chain(self) -> None:
         """Put on a new chain."""
-        self.wear, self.chain, self.chain_new_at = NEW_CHAIN, self.chain + 1, self.cycles
+        self.wear, self.chain = NEW_CHAIN, self.chain + 1
+        self.chain_in_use = self.chains.put_on(self.cycles)
 
     def press(self, table: Rows, cycles: float) -> None:
         """Let events wear the bodies."""

@@ -17,9 +17,9 @@ _GRID = np.geomspace(0.1, 1e4, 1000)
 
 @dataclass(frozen=True)
 class RunningIn(WearClock):
-    """K(N) = K (1 + (f - 1) exp(-N/N_r)), the same for all contacts of a drive.
+    """K(N) = K (1 + (f - 1) exp(-N/N_r)), of one part of a drive.
 
-    As it is a factor of the whole wear rate, a drive that runs in wears as one of constant
+    As it is a factor of the whole wear rate, a part that runs in wears as one of constant
     K does, only faster at first: N cycles wear as much as tau cycles of constant K,
 
         tau(N) = N + (f - 1) N_r (1 - exp(-N/N_r)).
@@ -72,8 +72,8 @@ class RunningIn(WearClock):
     def assumption(self) -> str:
         """Say what is taken for granted."""
         return (
-            f"running-in: the coefficients of teeth and joints are {self.factor:g} times as high at first, "
-            f"the excess falls to 1/e in {self.cycles:.3g} cycles; joints of every new chain run in as well"
+            f"running-in: the coefficient of a new part is {self.factor:g} times as high at first, the excess "
+            f"falls to 1/e in {self.cycles:.3g} cycles"
         )
 
     def steady_cycles(self, cycles: float) -> float:

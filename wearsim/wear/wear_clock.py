@@ -2,8 +2,6 @@
 
 from abc import ABC, abstractmethod
 
-import numpy as np
-
 from wearsim.geometry.profile_points import Vector
 
 
@@ -40,17 +38,3 @@ class WearClock(ABC):
     @abstractmethod
     def assumption(self) -> str:
         """Say what is taken for granted."""
-
-    def renewed(self, new_at: float, until: float) -> float:
-        """Return what a part has worn that was new later than the drive; all in constant cycles."""
-        if self.is_steady or new_at == 0.0:
-            return until - new_at
-        start, end = self.running_cycles(np.array([new_at, until]))
-        return self.steady_cycles(float(end - start))
-
-    def until_renewed(self, new_at: float, worn: float) -> float:
-        """Return when a part that was new later has worn so much, the inverse of ``renewed``."""
-        if self.is_steady or new_at == 0.0:
-            return new_at + worn
-        start, run = self.running_cycles(np.array([new_at, worn]))
-        return self.steady_cycles(float(start + run))

@@ -166,9 +166,16 @@ def loop_loads(
         sag = 0.02
         if table.slack_tension_N is None:
             case.take("drive.sag_percent", 100.0 * sag, "default")
-    sides = (layout, layout.braked) if any(load.reverse for load in duty.blocks) else (layout,)
-    levels = [side.level(chain.mass_per_length, table.slack_tension_N, sag, link_stiffness) for side in sides]
-    if not min(level.force for level in levels) > _NO_TENSION:
+    loads = (*duty.blocks, *duty.rated)
+    sides = [layout.braked if load.reverse else layout for load in loads]
+    # Where blocks share the power in other ways, other spans are the loosest.
+    levels = [
+        side.level(
+            chain.mass_per_length, table.slack_tension_N, sag, link_stiffness, _shares(side, load.power_share)
+        )
+        for side, load in zip(sides, loads, strict=True)
+    ]
+    if not all(level.force > _NO_TENSION for level in levels):
         case.faults.add(
             "drive.slack_tension_N",
             "the loosest span is vertical and has no tension of its own: give this, or take_up with a force",
@@ -183,15 +190,17 @@ def loop_loads(
             "keeps"
         )
     try:
-        found, rated = (
-            [_forces(case, chain, sides[load.reverse], load, levels[load.reverse], table) for load in loads]
-            for loads in (duty.blocks, duty.rated)
-        )
+        forces = [
+            _forces(case, chain, side, load, level, table)
+            for side, load, level in zip(sides, loads, levels, strict=True)
+        ]
     except CaseError as error:
-        braked = " (loads below 0 of the log swap tight and slack spans)" if len(sides) > 1 else ""
+        braking = any(load.reverse for load in loads)
+        braked = " (loads below 0 of the log swap tight and slack spans)" if braking else ""
         for fault in error.faults:
             case.faults.add(LOOP_KEY, f"{fault.message}{braked}")
         return None
+    found, rated = forces[: len(duty.blocks)], forces[len(duty.blocks) :]
     heaviest = max(rated, key=lambda forces: float(forces.tensions.max()))
     spans = ", ".join(
         f"{layout.loop.span_name(i)} {tension:.4g}" for i, tension in enumerate(heaviest.tensions)
@@ -206,10 +215,10 @@ def loop_loads(
         return None
     blocks, ratings = (
         tuple(
-            _block(layout, load, forces, turning_factor(case, chain, layout, load, law))
-            for load, forces in zip(loads, of, strict=True)
+            _block(layout, load, one, turning_factor(case, chain, layout, load, law))
+            for load, one in zip(given, of, strict=True)
         )
-        for loads, of in ((duty.blocks, found), (duty.rated, rated))
+        for given, of in ((duty.blocks, found), (duty.rated, rated))
     )
     return blocks, ratings
 

@@ -15,13 +15,15 @@ from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import case_clock
+from wearsim.simulation.wrap_life import chain_clock
 from wearsim.study.lubricate.intervals import (
     LubricationIntervals,
     MissedRelubrication,
     RelubricationPolicy,
     WornPart,
 )
-from wearsim.wear.lubricant_clock import LubricatedClock
+from wearsim.study.whole_drive.model import CHAIN
+from wearsim.wear.lubricant_clock import LubricantClock
 
 CONVENTIONS = (
     "lives are of parts that are new when they are lubricated; costs are in the long run, where parts are "
@@ -88,6 +90,7 @@ class LubricatedDrive:
     """A drive that was run: its lubricant, and the lives of its parts in hours run."""
 
     case: Case  # of one sprocket, or of the driver of a whole drive
+    cases: Mapping[str, Case]  # on which each part runs
     lives: Mapping[str, Life | LowerBound]
     bands: Mapping[str, tuple[float, float]]  # coefficients at the ends of the band over that of the case
     prices: Mapping[str, float | None]
@@ -116,7 +119,7 @@ def lubricant_plan(drive: LubricatedDrive) -> LubricantPlan:
     clock, per_hour = case_clock(case), case.cycles_per_hour
     law = clock.lubricant.law
     law = replace(law, lasts=law.lasts / per_hour, fades=law.fades / per_hour)
-    parts = tuple(_part(drive, clock, name) for name in drive.lives)
+    parts = tuple(_part(drive, clock.lubricant, name) for name in drive.lives)
     price = 0.0 if given.supplied else given.application_cost
     intervals = LubricationIntervals(law, given.dirt.excess, given.dirt.ageing, parts, price)
     if given.supplied:
@@ -167,17 +170,20 @@ def _supplied_plan(given: LubricationInput, intervals: LubricationIntervals) -> 
     )
 
 
-def _part(drive: LubricatedDrive, clock: LubricatedClock, name: str) -> WornPart:
+def _part(drive: LubricatedDrive, lubricant: LubricantClock, name: str) -> WornPart:
     """Return a part with its hours of well lubricated contacts, in the middle and at the ends of the band."""
-    life, per_hour = drive.lives[name], drive.case.cycles_per_hour
-    lubricated = clock.lubricant.steady_cycles(life.hours_run * per_hour)
+    life, case = drive.lives[name], drive.cases[name]
+    lubricated = (
+        lubricant.steady_cycles(life.hours_run * drive.case.cycles_per_hour) / drive.case.cycles_per_hour
+    )
+    clock = (chain_clock(case) if name == CHAIN else case_clock(case)).part
     # Running-in and powers of the cycles: constant cycles times coefficient stay the same.
-    constant = clock.part.steady_cycles(lubricated)
+    constant = clock.steady_cycles(lubricated * case.cycles_per_hour)
     low, high = drive.bands[name]
-    ends = clock.part.running_cycles(np.array([constant / high, constant / low])) / per_hour
+    ends = clock.running_cycles(np.array([constant / high, constant / low])) / case.cycles_per_hour
     return WornPart(
         name=name,
-        hours=lubricated / per_hour,
+        hours=lubricated,
         reached=isinstance(life, Life),
         price=drive.prices[name],
         hours_low=float(ends[0]),

@@ -107,6 +107,7 @@ def _run(case: Case | DriveCase, progress: Callable[[float], None]) -> Lubricate
     prices = case.inputs.get("maintenance", {})
     return LubricatedDrive(
         case,
+        dict.fromkeys(lives, case),
         lives,
         {name: _band(case, name) for name in lives},
         {name: prices.get(f"{name}_price") for name in lives},
@@ -123,6 +124,7 @@ def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> Lubricate
     prices = {name: case.inputs.get("maintenance", {}).get("sprocket_price") for name, case in cases.items()}
     return LubricatedDrive(
         first,
+        {name: cases.get(name, first) for name in lives},
         lives,
         {name: _band(cases.get(name, first), name) for name in lives},
         {

@@ -10,8 +10,7 @@ import numpy as np
 from wearsim.case.model import Case, WearBand
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
-from wearsim.simulation import case_clock
-from wearsim.simulation.wrap_life import wrap_of
+from wearsim.simulation.wrap_life import chain_clock, wrap_of
 from wearsim.study.remaining.chain_readings import NO_GO, ChainLog, ChainReading, read_chain_log
 from wearsim.study.remaining.contradictions import (
     CHAIN,
@@ -98,7 +97,7 @@ def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -
 def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainState:
     """Return what a log says, by the clock of the wear as it ran and goes on."""
     cycles_per_chain = wrap_of(as_logged).contact(as_logged).cycles_per_chain
-    clock, per_hour = case_clock(as_logged), as_logged.cycles_per_hour
+    clock, per_hour = chain_clock(as_logged), as_logged.cycles_per_hour
     today = log.relubrications.today
     rate = limit / cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)

@@ -10,8 +10,8 @@ from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.result import Life, LowerBound
 from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant
-from wearsim.simulation import case_clock, simulate
-from wearsim.simulation.wrap_life import wrap_of
+from wearsim.simulation import simulate
+from wearsim.simulation.wrap_life import chain_clock, wrap_of
 from wearsim.study.remaining.contradictions import JOINTS, TEETH, band_warning
 from wearsim.study.whole_drive.keys import DriveCase, chain_case
 
@@ -171,7 +171,7 @@ def _chain(case: Case, reading: SingleReading) -> _PartHistory:
         raise _fault(reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
     drive = wrap_of(case)
     contact = drive.contact(case)
-    [cycles] = case_clock(case).running_cycles(np.array([contact.cycles_per_chain])).tolist()
+    [cycles] = chain_clock(case).running_cycles(np.array([contact.cycles_per_chain])).tolist()
     life = Life(cycles, cycles / case.cycles_per_hour)
     return _PartHistory(
         hours=np.array([0.0, life.hours]),

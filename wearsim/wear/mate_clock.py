@@ -1,0 +1,79 @@
+"""The clock of a mate that is renewed while the bodies go on wearing: of a chain on its sprocket."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from wearsim.geometry.profile_points import Vector
+from wearsim.wear.lubricant_clock import LubricatedClock
+from wearsim.wear.running_in import NO_RUNNING_IN
+from wearsim.wear.wear_clock import WearClock
+
+
+@dataclass(frozen=True, eq=False)
+class MateInUse:
+    """Between the constant cycles of bodies and those of a mate that was put on at one of them.
+
+    A new mate runs in by its own sliding, and comes lubricated and clean.
+
+    Equation physics.md (R6).
+    """
+
+    bodies: LubricatedClock
+    mate: WearClock  # how a new one runs in
+    new_at: float  # when it was put on [constant cycles of the bodies]
+
+    @cached_property
+    def _alike(self) -> bool:
+        """Whether both count the same cycles."""
+        bodies = self.bodies
+        if self.new_at == 0.0:
+            return self.mate == bodies.part
+        return bodies.is_steady and self.mate.is_steady
+
+    @cached_property
+    def _run_before(self) -> float:
+        """Cycles run before it was put on."""
+        return float(self.bodies.running_cycles(np.array([self.new_at]))[0])
+
+    @cached_property
+    def _own(self) -> LubricatedClock:
+        """Its own clock, from when it was put on."""
+        lubricant = self.bodies.lubricant
+        return LubricatedClock(self.mate, lubricant.renewed(self._run_before) if self.new_at else lubricant)
+
+    def worn(self, until: float) -> float:
+        """Return the constant cycles that it has worn up to those of the bodies."""
+        if self._alike:
+            return until - self.new_at
+        run = float(self.bodies.running_cycles(np.array([until]))[0])
+        return self._own.steady_cycles(max(run - self._run_before, 0.0))
+
+    def until(self, worn: float) -> float:
+        """Return the constant cycles of the bodies at which it has worn so much, the inverse of ``worn``."""
+        if self._alike:
+            return self.new_at + worn
+        run = float(self._own.running_cycles(np.array([worn]))[0])
+        return self.bodies.steady_cycles(self._run_before + run)
+
+    def knees(self, until: float, most: int) -> Vector:
+        """Return the cycles run up to those constant ones between which its wear is nearly straight."""
+        run = float(self.bodies.running_cycles(np.array([until]))[0])
+        return self._run_before + self._own.lubricant.knees(run - self._run_before, max(most, 1))
+
+
+@dataclass(frozen=True, eq=False)
+class MateClock:
+    """How bodies and the mates that run on them, one after the other, wear over the same time."""
+
+    bodies: LubricatedClock
+    mate: WearClock  # how a new one runs in
+
+    def put_on(self, at: float) -> MateInUse:
+        """Return the clock of a mate that is put on at constant cycles of the bodies."""
+        return MateInUse(self.bodies, self.mate, at)
+
+
+STEADY = MateClock(LubricatedClock(NO_RUNNING_IN), NO_RUNNING_IN)
+"""Bodies and mates of constant coefficient."""
