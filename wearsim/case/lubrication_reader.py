@@ -323,8 +323,8 @@ def _assumptions(found: LubricationInput) -> Iterator[str]:
     if found.lasts is not ENDLESS or found.dirt.excess or found.phases:
         yield (
             "lubrication: the state of the lubricant multiplies the wear of all contacts alike; the joints "
-            "of a new chain come lubricated and clean, and are relubricated when the drive is; a new chain does "
-            "not lubricate the teeth"
+            "of a new chain come lubricated and clean, and are relubricated when the drive is; a new chain "
+            "does not lubricate the teeth"
         )
     if found.phases:
         yield (
