@@ -116,7 +116,7 @@ def test_no_80_drive(validated: Callable[..., None]) -> None:
 
 
 def test_conveyor_drive(validated: Callable[..., None]) -> None:
-    """ПР-25,4 on 27 and 51 teeth, 2.75 kW at 114 rpm, K_e 1.3, 30 pitches: 100 links, 768.58 mm.
+    """ПР-25,4 on 27 and 51 teeth, 2.75 kW at 114 rpm, K_e 1.3, 30 pitches: 100 links, 769 mm.
 
     A GOST chain of today has the same link with 60 kN. The pressure is 2110 N times 1.3 over
     179.7 mm2; the table allows 35 MPa at 50 and 30 MPa at 200 rpm.

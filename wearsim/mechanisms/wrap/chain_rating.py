@@ -60,10 +60,16 @@ def drive_notes(
         f"{rated.teeth:g} teeth at {rated.speed:.5g} rpm, ratio "
         f"{max(layout.rated_teeth) / small:.4g}",
         f"polygon effect: the speed of the chain varies by {100.0 * polygon_effect(small):.2f} % "
-        f"over a tooth of the small sprocket",
+        f"over a tooth of the small sprocket{_swing(layout)}",
         meetings,
         *([f"no limit known, so not judged: {', '.join(silent)}"] if silent else []),
     ]
+
+
+def _swing(layout: DriveLayout | LoopLayout) -> str:
+    if isinstance(layout, LoopLayout):
+        return ""
+    return f", the taut centre distance by {layout.polygon_swing:.1g} mm to either side"
 
 
 def _laid_out(layout: DriveLayout | LoopLayout) -> str:
@@ -75,8 +81,7 @@ def _laid_out(layout: DriveLayout | LoopLayout) -> str:
         return f"{layout.links} links; wrap {wraps}"
     return (
         f"{layout.links} links, centre distance {layout.centre_distance:.2f} mm = "
-        f"{layout.centre_distance / layout.pitch:.4f} pitches (taut, within {layout.polygon_swing:.2f} mm "
-        "as a tooth passes), wrap "
+        f"{layout.centre_distance / layout.pitch:.4f} pitches (taut), wrap "
         f"{math.degrees(layout.wrap_angle_1):.1f} degrees on the driver and "
         f"{math.degrees(layout.wrap_angle_2):.1f} on the driven sprocket"
     )
