@@ -121,16 +121,21 @@ def drive_plan(found: DriveLife) -> DrivePlan:
     rules = replacement_rules(
         lives[CHAIN].hours_run,
         {name: life.hours_run for name, life in lives.items() if name != CHAIN},
-        _prices(found.drive),
+        None if found.failed else _prices(found.drive),
         frozenset(name for name, life in lives.items() if isinstance(life, LowerBound)),
     )
     return DrivePlan(found, lives, tuple(rules))
 
 
 def part_lives(found: DriveLife) -> dict[str, Life | LowerBound]:
-    """Return the lives of chain and sprockets; a cassette lives as long as the cog that dies first."""
+    """Return the lives of chain and sprockets; a cassette lives as long as the cog that dies first.
+
+    One whose run has failed is left out, with its cassette.
+    """
     lives = {CHAIN: found.chain}
     for wheel in found.drive.wheels:
+        if not found.failed.keys().isdisjoint(wheel.parts):
+            continue
         cogs = [found.sprockets[name] for name in wheel.parts]
         lives[wheel.name] = min(cogs, key=lambda life: (life.hours_run, isinstance(life, LowerBound)))
     return lives
