@@ -154,17 +154,13 @@ RUN_IN = {
     "drive": {"links": 90, "slack_tension_N": 60},
     "joint": {"specific_wear_rate_mm2_per_N": 2e-8},
     "stop": {"elongation_percent": 1.5},
-    "wear": {
-        "specific_wear_rate_mm2_per_N": 1e-12,
-        "running_in_factor": 4.0,
-        "running_in_distance_mm": 3e5,
-    },
+    "wear": {"specific_wear_rate_mm2_per_N": 1e-12, "running_in_factor": 4.0, "running_in_distance_mm": 3e5},
 }
 
 
 @pytest.mark.parametrize("cassette", [False, True])
 def test_joints_have_one_clock_of_running_in(cassette):
-    """That of their own way, 2 pi d2 sum(1/z) in a loop: every chain lasts as long, seen from each sprocket."""
+    """That of their way in a loop, 2 pi d2 sum(1/z): all chains last as long, seen from each sprocket."""
     cogs = [{"teeth": teeth, "share_of_time": share} for teeth, share in ((13, 0.5), (19, 0.3), (30, 0.2))]
     wheel = {"name": "b", "profile": "iso606", "nodes": 31, "cog": cogs}
     tables = {**RUN_IN, "sprocket": [RUN_IN["sprocket"][0], wheel]} if cassette else RUN_IN
@@ -184,7 +180,7 @@ def test_joints_have_one_clock_of_running_in(cassette):
 
 @pytest.mark.parametrize("running_in", [1.0, 4.0])
 def test_a_new_chain_comes_lubricated(running_in):
-    """With a lubricant that lasts half a chain and is never renewed every chain lasts as long as the first."""
+    """With a lubricant that is never renewed on the drive every chain lasts as long as the first."""
     wear = {**RUN_IN["wear"], "running_in_factor": running_in}
     lubrication = {"lasts_hours": 20.0, "dry_factor": 5.0}
     run = {"life_tolerance": 0.1, "horizon_hours": 140.0}

@@ -165,10 +165,17 @@ def straight_wrap(degrees, tension, nodes, teeth):
 @pytest.mark.parametrize("nodes", [41, 101, 201])
 @pytest.mark.parametrize(
     ("degrees", "tension", "teeth"),
-    [(23.06, 60.2, 20), (4.77, 60.2, 14), (17.56, 9.9, 14), (36.45, 15.0, 34), (43.15, 6.9, 20), (9.5, 2.0, 40)],
+    [
+        (23.06, 60.2, 20),
+        (4.77, 60.2, 14),
+        (17.56, 9.9, 14),
+        (36.45, 15.0, 34),
+        (43.15, 6.9, 20),
+        (9.5, 2.0, 40),
+    ],
 )
 def test_lightly_pulled_wraps_are_found_and_bear_the_strands(nodes, degrees, tension, teeth):
-    """Their energy is near 0, so that its rounding is above 1e-11 of it. Teeth and strands balance in each phase."""
+    """The rounding of their energy is above 1e-11 of it. Teeth and strands balance in each phase."""
     bodies = SeatedBodies(straight_wrap(degrees, tension, nodes, teeth), LAW, None)
     bodies._seat()
     seating, mechanism = bodies.seating, bodies.contact.mechanism

@@ -271,7 +271,8 @@ def test_elongation_is_straight_between_the_rows_of_a_history(monkeypatch: pytes
     np.testing.assert_allclose(found, [limit * grown(hours) for hours in at], rtol=1e-6, atol=1e-6 * limit)
     put_on = [0.0, *rows.groupby("chain")["time_hours"].max()]
     all_chains = [
-        limit * (grown if row.chain == 1 else partial(of_new_chain, put_on[int(row.chain) - 1]))(row.time_hours)
+        limit
+        * (grown if row.chain == 1 else partial(of_new_chain, put_on[int(row.chain) - 1]))(row.time_hours)
         for row in rows.itertuples()
     ]
     np.testing.assert_allclose(rows["elongation_percent"], all_chains, rtol=1e-6, atol=1e-6 * limit)

@@ -322,9 +322,9 @@ def _assumptions(found: LubricationInput) -> Iterator[str]:
     """What the state of the lubricant takes for granted."""
     if found.lasts is not ENDLESS or found.dirt.excess or found.phases:
         yield (
-            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; the joints of "
-            "a new chain come lubricated and clean, and are relubricated when the drive is; a new chain does "
-            "not lubricate the teeth"
+            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; the joints "
+            "of a new chain come lubricated and clean, and are relubricated when the drive is; a new chain "
+            "does not lubricate the teeth"
         )
     if found.phases:
         yield (

@@ -245,7 +245,8 @@ def _clock_assumptions(case: Case, law: WearLaw) -> tuple[str, ...]:
     hours = joints.shortest / case.cycles_per_hour
     return (
         *found,
-        f"joints of every new chain run in by their own way on all sprockets, the excess falls to 1/e in {hours:.4g} h",
+        "joints of every new chain run in by their own way on all sprockets, the excess falls to 1/e in "
+        f"{hours:.4g} h",
     )
 
 

@@ -72,8 +72,8 @@ class RunningIn(WearClock):
     def assumption(self) -> str:
         """Say what is taken for granted."""
         return (
-            f"running-in: the coefficient of a new part is {self.factor:g} times as high at first, the excess "
-            f"falls to 1/e in {self.cycles:.3g} cycles"
+            f"running-in: the coefficient of a new part is {self.factor:g} times as high at first, the "
+            f"excess falls to 1/e in {self.cycles:.3g} cycles"
         )
 
     def steady_cycles(self, cycles: float) -> float:

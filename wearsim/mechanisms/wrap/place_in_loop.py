@@ -178,7 +178,8 @@ def loop_loads(
         return None
     try:
         forces = [
-            _forces(case, chain, layout, load, level, table) for load, level in zip(loads, levels, strict=True)
+            _forces(case, chain, layout, load, level, table)
+            for load, level in zip(loads, levels, strict=True)
         ]
     except CaseError as error:
         for fault in error.faults:
