@@ -7,6 +7,8 @@ import tomllib
 import pytest
 
 import wearsim
+from wearsim.errors import ConvergenceError
+from wearsim.study.whole_drive import model
 from wearsim.study.whole_drive.keys import load_drive
 from wearsim.study.whole_drive.model import drive_life
 
@@ -349,3 +351,62 @@ def test_cassettes_are_checked(cli, tmp_path, cassette):
         done = cli("check", path)
         assert done.code == 2
         assert message in done.err
+
+
+@pytest.fixture
+def idler_fails(monkeypatch, tmp_path, loop):
+    """A drive whose idler is not found; its path."""
+    run = model.simulate
+
+    def simulate(case, progress):
+        if case.drive.gaps == 13:
+            raise ConvergenceError("the rollers are not found: use more nodes")
+        return run(case, progress)
+
+    monkeypatch.setattr(model, "simulate", simulate)
+    path = tmp_path / "drive.toml"
+    path.write_text(loop.replace("[run]\n", "[run]\nhorizon_hours = 20\n"))
+    return path
+
+
+def test_a_failed_part_is_told_beside_the_lives_of_the_others(cli, idler_fails):
+    done = cli("life", idler_fails)
+    assert done.code == 5
+    assert "tensioner  no life: the rollers are not found" in " ".join(done.out.split("\n"))
+    assert "Chain " in done.out and "motor" in done.out
+    assert f"{idler_fails}: 'tensioner': the rollers are not found: use more nodes" in done.err
+    found = json.loads(cli("life", idler_fails, "--json").out)
+    lives = {one["name"]: one for one in found["sprockets"]}
+    assert list(lives) == ["motor", "tensioner", "pump", "fan"]
+    assert lives.pop("tensioner") == {
+        "name": "tensioner",
+        "error": "the rollers are not found: use more nodes",
+    }
+    assert all(one["life_hours_at_least"] == 20.0 for one in lives.values())
+    assert any(text.startswith("tensioner: no life") for text in found["warnings"])
+
+
+def test_a_failed_part_stands_on_the_sheet(cli, idler_fails, tmp_path):
+    done = cli("report", idler_fails, "--out", tmp_path / "sheet.html")
+    assert done.code == 5, done.err
+    text = (tmp_path / "sheet.html").read_text("utf-8")
+    assert "its run failed: the rollers are not found" in text and "nothing is known of tensioner" in text
+    # Links of the layout lead to the flanks of their sprockets: that of the pump is the third.
+    assert 'id="flank-3"' in text and 'id="flank-2"' not in text
+
+
+def test_a_failed_part_stands_in_the_folder_and_the_comparison(cli, idler_fails, tmp_path):
+    done = cli("life", idler_fails, "--out", tmp_path / "run", "--explain")
+    assert done.code == 5 and "no life: the rollers are not found" in done.out.replace("\n             ", " ")
+    assert json.loads((tmp_path / "run" / "drive.json").read_text())["sprockets"][1]["error"]
+    other = tmp_path / "other.toml"
+    other.write_text(idler_fails.read_text())
+    compared = cli("compare", idler_fails, other)
+    assert compared.code == 5 and compared.out.count("nothing is known of tensioner") == 2
+
+
+@pytest.mark.parametrize("command", ["maintain", "lubricate"])
+def test_what_needs_all_lives_fails_with_that_part(cli, idler_fails, command):
+    extra = ["--set", "lubrication.lasts_hours=5", "--set", "lubrication.dry_factor=2"]
+    done = cli(command, idler_fails, *(extra if command == "lubricate" else []))
+    assert done.code == 3 and "'tensioner': the rollers are not found" in done.err

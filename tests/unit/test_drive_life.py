@@ -85,7 +85,43 @@ def test_jumping_is_told_of_the_sprocket_that_is_nearest_to_it(needed, text):
     assert jumping_text(SimpleNamespace(results=results)) == text
 
 
-def test_one_that_fails_stops_the_others(monkeypatch, drive):
+def failing(monkeypatch, *gaps):
+    """Let the runs of the sprockets of so many teeth fail."""
+    run = model.simulate
+
+    def simulate(case, progress):
+        if case.drive.gaps in gaps:
+            raise ConvergenceError(f"{case.drive.gaps} teeth fail")
+        return run(case, progress)
+
+    monkeypatch.setattr(model, "simulate", simulate)
+
+
+SHORT = {**DRIVE, "run": {"horizon_hours": 50.0, "life_tolerance": 0.1}}
+
+
+@pytest.mark.parametrize("gaps", [(17,), (38,), (13, 15, 17, 19)])
+def test_others_live_on_where_one_fails(monkeypatch, gaps):
+    whole = drive_life(load_drive(SHORT))
+    failing(monkeypatch, *gaps)
+    found = drive_life(load_drive(SHORT))
+    assert len(found.results) == 5 - len(gaps) and len(found.failed) == len(gaps)
+    assert found.parts == {name: whole.parts[name] for name in found.parts}
+    assert {name: str(error) for name, error in found.failed.items()} == {
+        one.name: f"{one.drive.gaps} teeth fail" for one in found.drive.sprockets if one.drive.gaps in gaps
+    }
+    assert [one.ok for one in found.reference.ratings] == [one.ok for one in whole.reference.ratings]
+    with pytest.raises(ConvergenceError, match=f"'.*': {gaps[0]} teeth fail"):
+        found.complete()
+
+
+def test_where_all_fail_the_first_is_told(monkeypatch):
+    failing(monkeypatch, 38, 13, 15, 17, 19)
+    with pytest.raises(ConvergenceError, match="'ring': 38 teeth fail"):
+        drive_life(load_drive(SHORT))
+
+
+def test_a_mistake_of_ours_stops_the_others(monkeypatch, drive):
     """The others would run on for ever: each only looks at whether it is still wanted."""
     running, ran_on = threading.Semaphore(0), []
 
@@ -93,7 +129,7 @@ def test_one_that_fails_stops_the_others(monkeypatch, drive):
         if case.drive.gaps == 17:
             for _ in range(4):
                 assert running.acquire(timeout=10.0)
-            raise ConvergenceError("the cog of 17 teeth fails")
+            raise ZeroDivisionError
         running.release()
         for _ in range(2000):
             progress(0.5)
@@ -101,7 +137,7 @@ def test_one_that_fails_stops_the_others(monkeypatch, drive):
         ran_on.append(case.drive.gaps)
 
     monkeypatch.setattr(model, "simulate", simulate)
-    with pytest.raises(ConvergenceError, match="'cassette 17T': the cog of 17 teeth fails"):
+    with pytest.raises(ZeroDivisionError):
         drive_life(drive, threads=5)
     assert not ran_on
 
@@ -124,7 +160,7 @@ RUN_IN = {
 
 @pytest.mark.parametrize("cassette", [False, True])
 def test_joints_have_one_clock_of_running_in(cassette):
-    """That of their own way, 2 pi d2 sum(1/z) in a loop: one life of a chain, seen from each sprocket."""
+    """That of their way in a loop, 2 pi d2 sum(1/z): all chains last as long, seen from each sprocket."""
     cogs = [{"teeth": teeth, "share_of_time": share} for teeth, share in ((13, 0.5), (19, 0.3), (30, 0.2))]
     wheel = {"name": "b", "profile": "iso606", "nodes": 31, "cog": cogs}
     tables = {**RUN_IN, "sprocket": [RUN_IN["sprocket"][0], wheel]} if cassette else RUN_IN
@@ -144,7 +180,7 @@ def test_joints_have_one_clock_of_running_in(cassette):
 
 @pytest.mark.parametrize("running_in", [1.0, 4.0])
 def test_a_new_chain_comes_lubricated(running_in):
-    """With a lubricant that lasts half a chain, never renewed, every chain lasts as long as the first."""
+    """With a lubricant that is never renewed on the drive every chain lasts as long as the first."""
     wear = {**RUN_IN["wear"], "running_in_factor": running_in}
     lubrication = {"lasts_hours": 20.0, "dry_factor": 5.0}
     run = {"life_tolerance": 0.1, "horizon_hours": 140.0}

@@ -175,7 +175,7 @@ def straight_wrap(degrees, tension, nodes, teeth):
     ],
 )
 def test_lightly_pulled_wraps_are_found_and_bear_the_strands(nodes, degrees, tension, teeth):
-    """Their energy is near 0, its rounding above 1e-11 of it. Teeth and strands balance in each phase."""
+    """The rounding of their energy is above 1e-11 of it. Teeth and strands balance in each phase."""
     bodies = SeatedBodies(straight_wrap(degrees, tension, nodes, teeth), LAW, None)
     bodies._seat()
     seating, mechanism = bodies.seating, bodies.contact.mechanism

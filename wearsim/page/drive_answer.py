@@ -16,6 +16,7 @@ from wearsim.page.header import Header
 from wearsim.report.answer import hours
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.tooth_chart import worn_out_chart
+from wearsim.report.text_lines import listed
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.study.whole_drive.keys import DriveCase, load_drive
 from wearsim.study.whole_drive.layout_sketch import layout_sketch
@@ -54,12 +55,15 @@ class DriveAnswer:
         self.panel.show_lives(found)
         self.panel.show_pictures(*await edited.step(lambda: _pictures(found)))
         self._header.show_state("current", "of the present input")
-        return {one.name: (one.case, found.results[one.name]) for one in drive.sprockets}
+        cases = {one.name: one.case for one in drive.sprockets}
+        return {name: (cases[name], result) for name, result in found.results.items()}
 
 
 def drive_headline(found: DriveLife) -> str:
     """Return when something is replaced first and what, with the word where the drive is overloaded."""
     text = hours(found.life) + (f", {found.first} first" if found.first else "")
+    if found.failed:
+        text += f", nothing known of {listed(list(found.failed))}"
     return f"{text} (overloaded)" if found.overloaded else text
 
 
@@ -90,7 +94,7 @@ def _estimate(edited: EditedInput, drive: DriveCase) -> DriveLife | None:
     for number, sprocket in enumerate(taken_inputs(drive)["sprocket"], start=1):
         settings.append(f"sprocket.{number}.nodes={min(_ROUGH_NODES, sprocket['nodes'])}")
     try:
-        return drive_life(load_drive(edited.source, settings), progress=edited.check)
+        return drive_life(load_drive(edited.source, settings), progress=edited.check).complete()
     except WearsimError:
         return None
 

@@ -31,6 +31,7 @@ class DrivePanel:
     def __init__(self, palette: Palette) -> None:
         self._palette = palette
         self._flanks: Mapping[str, Chart] = {}
+        self._names: list[str] = []  # of all sprockets, those that have no flank too
         self._flank: ChartView | None = None
         self._life = ui.element("section").classes("ws-life-card ws-card")
         with ui.element("div").classes("ws-pair") as self._drive:
@@ -62,6 +63,7 @@ class DrivePanel:
 
     def show_lives(self, found: DriveLife) -> None:
         """Show the lives and everything in words."""
+        self._names = [one.name for one in found.drive.sprockets]
         self._fill_life(found)
         self._fill_ratings(found)
         self._text.clear()
@@ -75,7 +77,7 @@ class DrivePanel:
         """Show all lives over time, and the flank of the sprocket that is chosen."""
         self._bars.content = str(bars)  # every text escaped
         self._flanks = flanks
-        places = [flank_place(number) for number in range(1, len(flanks) + 1)]
+        places = self._places_of(flanks)
         self._places.content = "".join(f'<span id="{place}"></span>' for place in places)
         chosen = self._chosen.value
         self._chosen.set_options(list(flanks), value=chosen if chosen in flanks else next(iter(flanks)))
@@ -91,10 +93,15 @@ class DrivePanel:
 
     def _choose_place(self, place: str) -> None:
         """Show the flank that a link of the layout leads to."""
-        places = {flank_place(number): name for number, name in enumerate(self._flanks, start=1)}
+        places = self._places_of(self._flanks)
         if place in places:
             self._chosen.value = places[place]
             ui.run_javascript(f'getHtmlElement({self._tooth.id}).scrollIntoView({{block: "nearest"}})')
+
+    def _places_of(self, flanks: Mapping[str, Chart]) -> dict[str, str]:
+        """Return the sprockets that have a flank by the places that links of the layout lead to."""
+        named = enumerate(self._names, start=1)
+        return {flank_place(number): name for number, name in named if name in flanks}
 
     def _show_flank(self) -> None:
         chart = self._flanks.get(self._chosen.value or "")
@@ -123,4 +130,4 @@ class DrivePanel:
     def _fill_ratings(self, found: DriveLife) -> None:
         self._ratings.clear()
         with self._ratings:
-            rating_list(found.results[found.drive.driver.name].ratings)
+            rating_list(found.reference.ratings)

@@ -246,7 +246,7 @@ class LubricantClock:
         self._keep(state)
 
     def _repeat(self, first: int, last: int, start: _Stretch, end: _Stretch) -> None:
-        """Go on for ever with the stretches from the first on, which begins with what follows the last."""
+        """Go on for ever with the stretches from the first on; ``last`` events before it are of no round."""
         self._first, self._cycles, self._worn = first, end.begin - start.begin, end.worn - start.worn
         self._again = (*self._happened, *self._stretches[first].events[last:])
 

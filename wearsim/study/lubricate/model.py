@@ -172,10 +172,8 @@ def _supplied_plan(given: LubricationInput, intervals: LubricationIntervals) -> 
 
 def _part(drive: LubricatedDrive, lubricant: LubricantClock, name: str) -> WornPart:
     """Return a part with its hours of well lubricated contacts, in the middle and at the ends of the band."""
-    life, case = drive.lives[name], drive.cases[name]
-    lubricated = (
-        lubricant.steady_cycles(life.hours_run * drive.case.cycles_per_hour) / drive.case.cycles_per_hour
-    )
+    life, case, per_hour = drive.lives[name], drive.cases[name], drive.case.cycles_per_hour
+    lubricated = lubricant.steady_cycles(life.hours_run * per_hour) / per_hour
     clock = (chain_clock(case) if name == CHAIN else case_clock(case)).part
     # Running-in and powers of the cycles: constant cycles times coefficient stay the same.
     constant = clock.steady_cycles(lubricated * case.cycles_per_hour)

@@ -1,7 +1,7 @@
 """What commands do with a whole drive: with all of its sprockets, or with one of them."""
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
@@ -86,7 +86,7 @@ def export_wheels(
 
     check_folder(out, force)
     cases = _titled_cases(loaded_drive(path, settings, False))
-    results = lived([path], settings, False)[path].results if "worn" in states else {}
+    results = lived([path], settings, False)[path].complete().results if "worn" in states else {}
     with new_folder(out, force) as place:
         for file, (name, case) in zip(file_names(list(cases)), cases.items(), strict=True):
             (place / f"{file}.{form}").write_bytes(export(case, results.get(name), states, form))
@@ -141,7 +141,7 @@ def live(
         else:
             show(drive_text(one, str(path), explain))
         missed = _missed(one, hours, strict) or missed
-    if len(found) < len(set(paths)):
+    if _show_failed(found) or len(found) < len(set(paths)):
         return SOME_FAILED
     return NOT_MET if missed else 0
 
@@ -167,6 +167,16 @@ def lived(
     if not found:
         raise click.exceptions.Exit(max(map(exit_code, failures)))
     return found
+
+
+def _show_failed(found: "Mapping[Path, DriveLife]") -> bool:
+    """Show what the runs of single sprockets have failed with; whether there are any."""
+    errors = [
+        (path, f"{name!r}: {error}") for path, one in found.items() for name, error in one.failed.items()
+    ]
+    for path, text in errors:
+        show_error(WearsimError(text), path)
+    return bool(errors)
 
 
 def _by_sprocket(drives: "Iterable[DriveLife]") -> "dict[str, WearResult]":
@@ -209,7 +219,7 @@ def compared(
     if out is not None:
         save_drives(drives, out, force)
         warn(f"written to {out}")
-    return SOME_FAILED if len(found) < len(set(paths)) else 0
+    return SOME_FAILED if _show_failed(found) or len(found) < len(set(paths)) else 0
 
 
 def planned(path: Path, settings: tuple[str, ...], as_json: bool, out: Path | None, force: bool) -> None:
@@ -219,7 +229,7 @@ def planned(path: Path, settings: tuple[str, ...], as_json: bool, out: Path | No
 
     if out is not None:
         check_folder(out, force)
-    plan = drive_plan(lived([path], settings, as_json)[path])
+    plan = drive_plan(lived([path], settings, as_json)[path].complete())
     if out is not None:
         save_plan(plan, out, force)
     if as_json:
@@ -267,9 +277,11 @@ def report_sheet(
     from wearsim.study.whole_drive.report_page import SheetHead, check_page, is_page, save_sheet
 
     (check_page if is_page(out) else check_folder)(out, force)
-    found = lived([path], settings, False)[path]
+    found = lived([path], settings, False)
     head = SheetHead(date.today(), project, author, drawing)
-    click.echo(save_sheet(found, head, out, force))
+    click.echo(save_sheet(found[path], head, out, force))
+    if _show_failed(found):
+        raise click.exceptions.Exit(SOME_FAILED)
 
 
 def loaded_drive(path: Path, settings: Sequence[str], as_json: bool) -> "DriveCase":

@@ -15,6 +15,7 @@ from wearsim.study.whole_drive.sheet import (
     band_source,
     band_text,
     explained_rows,
+    failed_rows,
     first_stop_text,
     first_text,
     found_rows,
@@ -73,7 +74,7 @@ def _short_rows(found: DriveLife) -> list[str]:
     ]
     assumes = row("Assumes", counted(*taken_for_granted(found)))
     left = _MAX_LINES - _TITLE_ASSUMES_NEXT - len(before)
-    return [*before, row("Warnings", _first_warning(found.warnings), left), assumes]
+    return [*before, row("Warnings", _first_warning(found.warnings), max(left, 1)), assumes]
 
 
 def _practice_row(found: DriveLife) -> str:
@@ -96,7 +97,7 @@ def _part_rows(found: DriveLife) -> list[str]:
     for label, names in grouped_parts(found, _MAX_ROWS):
         alone = names == (label,)
         rows.append(_line(label, *(_part(found, label) if alone else _lives(own_lives(found, label, names)))))
-    return rows
+    return [*rows, *(row(label, text, 1) for label, text in failed_rows(found))]
 
 
 def _chain(found: DriveLife) -> list[str]:
@@ -153,7 +154,7 @@ def _called(stop: Stop) -> list[str]:
 
 def _ratings(found: DriveLife) -> list[str]:
     """Return whether the drive is within its ratings, and the worst of those that it is outside of."""
-    driver = found.results[found.drive.driver.name]
+    driver = found.reference
     if not driver.overloaded:
         return [within_text(driver), within_text(driver).partition(";")[0]]
     worst = used_text(max(driver.overloaded, key=lambda finding: finding.used))

@@ -31,8 +31,9 @@ def write_drive(found: DriveLife, folder: Path, force: bool) -> None:
 def _lock(found: DriveLife, place: Path) -> str:
     """Return the input of a drive as TOML, its files beside it."""
     inputs: dict[str, Any] = copy.deepcopy(dict(found.drive.inputs))
+    files = {one.name: one.case.input_files for one in found.drive.sprockets}
     for number, (wheel, table) in enumerate(zip(found.drive.wheels, inputs["sprocket"], strict=True), 1):
-        own = found.results[wheel.parts[0]].input_files
+        own = files[wheel.parts[0]]
         for key in _FILES:
             if key in table:
                 file = Path(table[key]).name

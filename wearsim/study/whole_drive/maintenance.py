@@ -109,7 +109,7 @@ class DrivePlan:
 
 def drive_plan(found: DriveLife) -> DrivePlan:
     """Return the rules by which the parts of a drive can be replaced, and their cost if prices are given."""
-    lives, prices = part_lives(found), _prices(found.drive)
+    lives, prices = part_lives(found), None if found.failed else _prices(found.drive)
     hours = {name: life.hours_run for name, life in lives.items()}
     worn_out = {name: life.hours for name, life in lives.items() if isinstance(life, Life)}
     chain = hours.pop(CHAIN)
@@ -119,9 +119,14 @@ def drive_plan(found: DriveLife) -> DrivePlan:
 
 
 def part_lives(found: DriveLife) -> dict[str, Life | LowerBound]:
-    """Return the lives of chain and sprockets; a cassette lives as long as the cog that dies first."""
+    """Return the lives of chain and sprockets; a cassette lives as long as the cog that dies first.
+
+    One whose run has failed is left out, with its cassette.
+    """
     lives = {CHAIN: found.chain}
     for wheel in found.drive.wheels:
+        if not found.failed.keys().isdisjoint(wheel.parts):
+            continue
         cogs = [found.sprockets[name] for name in wheel.parts]
         lives[wheel.name] = min(cogs, key=lambda life: (life.hours_run, isinstance(life, LowerBound)))
     return lives

@@ -5,12 +5,12 @@ import os
 import threading
 from collections.abc import Callable
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from wearsim.chain.selection import RatingFinding, rating_warnings
-from wearsim.errors import ContactError, ConvergenceError
+from wearsim.errors import ContactError, ConvergenceError, WearsimError
 from wearsim.notebook import html_rows, one_line
 from wearsim.report.answer import hours
 from wearsim.report.events import Event, drive_events
@@ -29,7 +29,7 @@ CHAIN = "chain"
 
 
 class _GivenUpError(Exception):
-    """The run of another sprocket of the drive has failed."""
+    """Nobody waits for the runs of a drive any more."""
 
 
 @dataclass(frozen=True)
@@ -41,11 +41,36 @@ class DriveLife:
     drive : DriveCase
         What was worn.
     results : dict of WearResult
-        Of every sprocket by its name, the driver's first.
+        Of every sprocket by its name, in the order of the file.
+    failed : dict of WearsimError
+        What the runs of the others ended with, by their names; none as a rule.
     """
 
     drive: DriveCase
     results: dict[str, WearResult]
+    failed: dict[str, WearsimError] = field(default_factory=dict)
+
+    def complete(self) -> "DriveLife":
+        """Return this where every sprocket has a life.
+
+        Returns
+        -------
+        DriveLife
+            This.
+
+        Raises
+        ------
+        ContactError, ConvergenceError
+            What the run of a sprocket ended with.
+        """
+        for name, error in self.failed.items():
+            raise type(error)(f"{name!r}: {error}") from error
+        return self
+
+    @property
+    def reference(self) -> WearResult:
+        """Result of the driver, of another sprocket where its run has failed; chain and ratings are alike."""
+        return self.results.get(self.drive.driver.name) or next(iter(self.results.values()))
 
     def __repr__(self) -> str:
         lives = (f"{name} {hours(life)}" for name, life in self.parts.items())
@@ -98,7 +123,10 @@ class DriveLife:
     @property
     def chain(self) -> Life | LowerBound:
         """Life of the chain, in cycles of the driver."""
-        return self.results[self.drive.driver.name].parts[CHAIN]
+        driver, life = self.drive.driver, self.reference.parts[CHAIN]
+        if driver.name in self.results:
+            return life
+        return type(life)(life.hours_run * driver.case.cycles_per_hour, life.hours_run)
 
     @property
     def sprockets(self) -> dict[str, Life | LowerBound]:
@@ -162,28 +190,24 @@ class DriveLife:
         """Everything that may end a part, that which comes first at the head."""
         bands = {name: self.band(name) for name in self.parts}
         pitting = {name: life for one in self.results.values() for name, life in _named_fatigue(one).items()}
-        return part_ends({**self.parts, **pitting}, bands, self._driver.ratings)
+        return part_ends({**self.parts, **pitting}, bands, self.reference.ratings)
 
     @property
     def practice(self) -> SecondOpinions | None:
         """What published rules say of the life of the chain."""
-        return self._driver.practice
+        return self.reference.practice
 
     @property
     def events(self) -> tuple[Event, ...]:
         """What happens to the chain and the sprockets when, in the order of time."""
         limit = 100.0 * self.drive.driver.drive.joint.elongation_limit
-        history = self._driver.history_columns
+        history = self.reference.history_columns
         return drive_events(self.drive.driver.case.inputs, history, self.chain, limit, self.sprockets)
 
     @property
-    def _driver(self) -> WearResult:
-        return self.results[self.drive.driver.name]
-
-    @property
     def overloaded(self) -> tuple[RatingFinding, ...]:
-        """Ratings that the drive does not meet; both sprockets have the same."""
-        return self.results[self.drive.driver.name].overloaded
+        """Ratings that the drive does not meet; all sprockets have the same."""
+        return self.reference.overloaded
 
     @property
     def doubts(self) -> tuple[str, ...]:
@@ -192,12 +216,13 @@ class DriveLife:
             name: [text for text in result.warnings if text not in rating_warnings(result.ratings)]
             for name, result in self.results.items()
         }
-        return said_of_sprockets(texts, self.drive.wheels)
+        failed = (f"{name}: no life: {error}" for name, error in self.failed.items())
+        return (*failed, *said_of_sprockets(texts, self.drive.wheels))
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What is doubtful: first the ratings that are not kept, with the loads and speeds of the driver."""
-        return (*rating_warnings(self.results[self.drive.driver.name].ratings), *self.doubts)
+        return (*rating_warnings(self.reference.ratings), *self.doubts)
 
 
 def _named_fatigue(result: WearResult) -> dict[str, Life | LowerBound]:
@@ -214,7 +239,7 @@ def drive_life(
     """Wear all sprockets of a drive, each with the chains that run on it.
 
     The chain grows by its joints alone, at all sprockets: every sprocket meets the same chains at the
-    same times, and each is worn on its own.
+    same times, and each is worn on its own. Where the run of one fails the others go on.
 
     Parameters
     ----------
@@ -230,12 +255,12 @@ def drive_life(
     Returns
     -------
     DriveLife
-        Results of all sprockets.
+        Results of all sprockets, and what the runs of some have failed with.
 
     Raises
     ------
     WearsimError
-        As `wearsim.simulate` does for the case of a sprocket.
+        As `wearsim.simulate` does for the case of a sprocket, where no run comes to its end.
     """
     done = dict.fromkeys((one.name for one in drive.sprockets), 0.0)
     lock, given_up = threading.Lock(), threading.Event()
@@ -250,19 +275,23 @@ def drive_life(
 
         return _report
 
-    def _run(one: DriveSprocket) -> WearResult:
+    def _run(one: DriveSprocket) -> WearResult | WearsimError:
         report = _watch(one.name)
         report(0.0)  # may end what nobody waits for before it begins
         try:
             return simulate(one.case.with_horizon(least_horizon or 0.0), report)
         except (ContactError, ConvergenceError) as error:
-            raise type(error)(f"{one.name!r}: {error}") from error
+            report(1.0)
+            return error
 
     with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
         runs = {one.name: pool.submit(_run, one) for one in drive.sprockets}
         try:
             ended, _ = wait(runs.values(), return_when=FIRST_EXCEPTION)
         finally:
-            given_up.set()  # one has failed, or the user has stopped them
-        results = {name: run.result() for name, run in runs.items() if run in ended}
-    return DriveLife(drive, results)
+            given_up.set()  # the user has stopped them
+        ends = {name: run.result() for name, run in runs.items() if run in ended}
+    results = {name: end for name, end in ends.items() if isinstance(end, WearResult)}
+    failed = {name: end for name, end in ends.items() if isinstance(end, WearsimError)}
+    found = DriveLife(drive, results, failed)
+    return found if results else found.complete()

@@ -32,7 +32,7 @@ class PageTable:
 
 def rating_table(found: DriveLife) -> tuple[PageTable, tuple[str, ...]]:
     """Return the ratings with their margins, and the notes that their sources point to."""
-    ratings = found.results[found.drive.driver.name].ratings
+    ratings = found.reference.ratings
     notes = tuple(dict.fromkeys(one.note for one in ratings if one.note))
     rows = []
     for one in ratings:
@@ -197,7 +197,7 @@ def lubrication_rows(found: DriveLife) -> list[tuple[str, str]]:
     """Return the wear conditions that lubrication stands for, and the factors on loads."""
     states: dict[str, list[str]] = {}
     for one in found.drive.sprockets:
-        table, wear = found.results[one.name].inputs["wear"], one.case.wear
+        table, wear = one.case.inputs["wear"], one.case.wear
         unit = " mm2/N" if wear.law == "archard" else ""
         condition = table.get("condition")
         name = f"'{condition}', " if condition else ""
@@ -240,6 +240,10 @@ def life_table(found: DriveLife) -> PageTable:
                 part_ending(found, name),
             )
         )
+    rows += [
+        (name, "no life", "-", *["-"] * len(measures), f"its run failed: {error}")
+        for name, error in found.failed.items()
+    ]
     head = ("part", "life", "over the band", *measures, "what ends it")
     return PageTable("Lives", head, tuple(rows), (0, len(head) - 1))
 

@@ -151,7 +151,7 @@ def sheet_html(found: DriveLife, head: SheetHead) -> str:
 
 def _page(found: DriveLife, head: SheetHead) -> SheetPage:
     drive = found.drive
-    driver = found.results[drive.driver.name]
+    driver, places = found.reference, [one.name for one in drive.sprockets]
     ratings, notes = rating_table(found)
     plan = drive_plan(found)
     assumptions, defaults = taken_for_granted(found)
@@ -181,8 +181,8 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         plan_rule=plan.best.name,
         plan_goes_on=plan.goes_on,
         flanks=[
-            FlankPicture(flank_place(number), name, sketch(_flank(result)))
-            for number, (name, result) in enumerate(found.results.items(), start=1)
+            FlankPicture(flank_place(places.index(name) + 1), name, sketch(_flank(result)))
+            for name, result in found.results.items()
         ],
         warnings=found.warnings,
         assumptions=assumptions,

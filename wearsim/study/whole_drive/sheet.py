@@ -47,6 +47,7 @@ def found_rows(found: DriveLife) -> list[tuple[str, str]]:
     return [
         (CHAIN.capitalize(), "; ".join(filter(None, (part_text(found, CHAIN), against_hours(found))))),
         *((name, part_text(found, name)) for name in found.results),
+        *failed_rows(found),
         ("First", first_text(drive_plan(found))),
         ("Band", band_text(found)),
         *([("Practice", practice_text(found.practice))] if found.practice else []),
@@ -79,6 +80,11 @@ def explained_rows(found: DriveLife) -> list[tuple[str, str]]:
     return [] if found.practice is None else chain_rows(found.ends, found.practice, found.events)
 
 
+def failed_rows(found: DriveLife) -> list[tuple[str, str]]:
+    """Return the sprockets whose runs have failed, and why."""
+    return [(name, f"no life: {error}") for name, error in found.failed.items()]
+
+
 def grouped_parts(found: DriveLife, most_rows: int) -> list[tuple[str, tuple[str, ...]]]:
     """Return labels of the sprockets, each with the names that share it.
 
@@ -86,7 +92,12 @@ def grouped_parts(found: DriveLife, most_rows: int) -> list[tuple[str, tuple[str
     """
     if len(found.results) <= most_rows:
         return [(name, (name,)) for name in found.results]
-    cassettes = [(wheel.name, wheel.parts) for wheel in found.drive.wheels if wheel.cogs]
+    cassettes = [
+        (wheel.name, tuple(name for name in wheel.parts if name in found.results))
+        for wheel in found.drive.wheels
+        if wheel.cogs
+    ]
+    cassettes = [(name, cogs) for name, cogs in cassettes if cogs]
     in_cassette = {name for _, names in cassettes for name in names}
     single = tuple(name for name in found.results if name not in in_cassette)
     if len(single) + len(cassettes) <= most_rows:
@@ -102,12 +113,12 @@ def part_rows(found: DriveLife) -> list[tuple[str, str]]:
     for label, names in grouped_parts(found, _MAX_ROWS):
         alone = names == (label,)
         rows.append((label, part_text(found, label) if alone else lives_text(own_lives(found, label, names))))
-    return rows
+    return [*rows, *failed_rows(found)]
 
 
 def ratings_text(found: DriveLife) -> str:
     """Return in words whether a drive is within its ratings, and whether its chain may jump."""
-    driver = found.results[found.drive.driver.name]
+    driver = found.reference
     rated = f"OVERLOADED: {overload_text(driver)}" if driver.overloaded else within_text(driver)
     return f"{rated}; {jumping_text(found)}"
 
@@ -185,13 +196,14 @@ def _sprocket_ending(result: WearResult) -> str:
 def first_text(plan: DrivePlan) -> str:
     """Return in words what is replaced first, and what then, by the best rule of a plan."""
     stops = plan.first_stops
+    unknown = f"; nothing is known of {listed(list(plan.found.failed))}" if plan.found.failed else ""
     if not stops:
-        return f"nothing is to be replaced within {grouped(plan.until)} h"
+        return f"nothing is to be replaced within {grouped(plan.until)} h{unknown}"
     first, *after = stops
     text = first_stop_text(plan, first, parts_in_words(first))
     then = ", ".join(stop_text(plan, stop, parts_in_words(stop)) for stop in after[:_MAX_THEN])
     more = f", and {len(after) - _MAX_THEN} more" if len(after) > _MAX_THEN else ""
-    return f"{text}; then {then}{more}" if then else text
+    return f"{text}; then {then}{more}{unknown}" if then else f"{text}{unknown}"
 
 
 def first_stop_text(plan: DrivePlan, first: Stop, parts: str) -> str:
@@ -290,13 +302,16 @@ def drive_json(found: DriveLife) -> dict[str, Any]:
         **life_keys("chain_life_hours", found.chain),
         **service_keys(drive.driver.case.inputs, found.life),
         "overloaded": bool(found.overloaded),
-        "sprockets": [
-            {"name": name, **result.summary(), "chains": found.chains_with(name)}
-            for name, result in found.results.items()
-        ],
         "ends": ends_json(found.ends),
         "events": events_json(found.events),
         **({} if found.practice is None else {"practice": opinions_json(found.practice)}),
+        "sprockets": [_sprocket_json(found, one.name) for one in drive.sprockets],
         "layout": layout_json(drive),
         "warnings": list(found.warnings),
     }
+
+
+def _sprocket_json(found: DriveLife, name: str) -> dict[str, Any]:
+    if name in found.failed:
+        return {"name": name, "error": str(found.failed[name])}
+    return {"name": name, **found.results[name].summary(), "chains": found.chains_with(name)}

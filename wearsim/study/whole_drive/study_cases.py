@@ -43,7 +43,7 @@ def drive_lives(drives: Iterable[DriveCase]) -> Iterator[CaseLife | WearsimError
     """Give the lives of drives: of the part that ends first, and of each part; a cassette is one."""
     for drive in drives:
         try:
-            found = drive_life(drive, threads=1)
+            found = drive_life(drive, threads=1).complete()
         except WearsimError as error:
             yield error
             continue
