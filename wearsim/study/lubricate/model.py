@@ -15,15 +15,14 @@ from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import case_clock
-from wearsim.simulation.wrap_life import chain_clock
 from wearsim.study.lubricate.intervals import (
     LubricationIntervals,
     MissedRelubrication,
     RelubricationPolicy,
     WornPart,
 )
-from wearsim.study.whole_drive.model import CHAIN
 from wearsim.wear.lubricant_clock import LubricantClock
+from wearsim.wear.wear_clock import WearClock
 
 CONVENTIONS = (
     "lives are of parts that are new when they are lubricated; costs are in the long run, where parts are "
@@ -90,7 +89,7 @@ class LubricatedDrive:
     """A drive that was run: its lubricant, and the lives of its parts in hours run."""
 
     case: Case  # of one sprocket, or of the driver of a whole drive
-    cases: Mapping[str, Case]  # on which each part runs
+    clocks: Mapping[str, tuple[WearClock, float]]  # how each part runs in, and its cycles in an hour
     lives: Mapping[str, Life | LowerBound]
     bands: Mapping[str, tuple[float, float]]  # coefficients at the ends of the band over that of the case
     prices: Mapping[str, float | None]
@@ -172,13 +171,13 @@ def _supplied_plan(given: LubricationInput, intervals: LubricationIntervals) -> 
 
 def _part(drive: LubricatedDrive, lubricant: LubricantClock, name: str) -> WornPart:
     """Return a part with its hours of well lubricated contacts, in the middle and at the ends of the band."""
-    life, case, per_hour = drive.lives[name], drive.cases[name], drive.case.cycles_per_hour
+    life, per_hour = drive.lives[name], drive.case.cycles_per_hour
     lubricated = lubricant.steady_cycles(life.hours_run * per_hour) / per_hour
-    clock = (chain_clock(case) if name == CHAIN else case_clock(case)).part
+    clock, own_per_hour = drive.clocks[name]
     # Running-in and powers of the cycles: constant cycles times coefficient stay the same.
-    constant = clock.steady_cycles(lubricated * case.cycles_per_hour)
+    constant = clock.steady_cycles(lubricated * own_per_hour)
     low, high = drive.bands[name]
-    ends = clock.running_cycles(np.array([constant / high, constant / low])) / case.cycles_per_hour
+    ends = clock.running_cycles(np.array([constant / high, constant / low])) / own_per_hour
     return WornPart(
         name=name,
         hours=lubricated,

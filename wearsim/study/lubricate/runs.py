@@ -12,11 +12,13 @@ from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput, is_whole_drive
 from wearsim.input.schema.lubrication_tables import APPLICATION, FADES, LASTS, RATES, SCHEDULES, SUPPLY
 from wearsim.result import Life, LowerBound
-from wearsim.simulation import simulate
+from wearsim.simulation import case_clock, simulate
+from wearsim.simulation.wrap_life import chain_clock
 from wearsim.study.lubricate.model import LubricatedDrive, LubricationStudy, check_ages, lubrication_study
 from wearsim.study.whole_drive.keys import DriveCase, load_drive
 from wearsim.study.whole_drive.maintenance import part_lives
 from wearsim.study.whole_drive.model import CHAIN, drive_life
+from wearsim.wear.wear_clock import WearClock
 
 SPROCKET = "sprocket"
 
@@ -107,7 +109,7 @@ def _run(case: Case | DriveCase, progress: Callable[[float], None]) -> Lubricate
     prices = case.inputs.get("maintenance", {})
     return LubricatedDrive(
         case,
-        dict.fromkeys(lives, case),
+        {name: _clock(case, name) for name in lives},
         lives,
         {name: _band(case, name) for name in lives},
         {name: prices.get(f"{name}_price") for name in lives},
@@ -124,7 +126,7 @@ def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> Lubricate
     prices = {name: case.inputs.get("maintenance", {}).get("sprocket_price") for name, case in cases.items()}
     return LubricatedDrive(
         first,
-        {name: cases.get(name, first) for name in lives},
+        {name: _clock(cases.get(name, first), name) for name in lives},
         lives,
         {name: _band(cases.get(name, first), name) for name in lives},
         {
@@ -134,6 +136,11 @@ def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> Lubricate
         drive.assumptions,
         found.warnings,
     )
+
+
+def _clock(case: Case, part: str) -> tuple[WearClock, float]:
+    """Return how a part runs in, and the cycles of an hour."""
+    return (chain_clock(case) if part == CHAIN else case_clock(case)).part, case.cycles_per_hour
 
 
 def _band(case: Case, part: str) -> tuple[float, float]:
