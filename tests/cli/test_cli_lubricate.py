@@ -360,6 +360,16 @@ def test_band_of_a_part_is_the_same_in_life_and_lubricate(
     assert [own.lives_low[part], own.lives_high[part]] == pytest.approx(expected, rel=1e-9)
 
 
+def test_band_of_a_chain_that_runs_in_is_that_of_life() -> None:
+    """Its joints run in by their own way, not by that of the teeth."""
+    settings = ["wear.running_in_factor=5", "wear.running_in_distance_mm=5e5", "stop.critical_depth_mm=1"]
+    result = wearsim.simulate(wearsim.load_case(WRAP, settings))
+    assert result.life == result.parts["chain"]
+    own = study(*settings, tables=WRAP).plans[0].own
+    assert own.lives_low["chain"] == pytest.approx(result.life_low.hours_run, rel=1e-6)
+    assert own.lives_high["chain"] == pytest.approx(result.life_high.hours_run, rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
