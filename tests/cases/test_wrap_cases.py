@@ -43,8 +43,17 @@ def chain_hours(case: wearsim.Case) -> float:
     own = case.drive.gaps / case.engaged_every
     mate = layout.teeth_2 if case.drive.driver else layout.teeth_1
     turning = math.pi * case.drive.chain.pin_diameter * (1 / own + 1 / mate)
-    rate = inputs["joint"]["specific_wear_rate_mm2_per_N"]
-    loop = rate * (tight + slack) / area * turning / case.drive.chain.pitch
+    joint = inputs["joint"]
+    worn = 0.0
+    for pressure in (tight / area, slack / area):
+        law = 1.0
+        if joint["law"] == "pressure_speed":
+            # No shipped wrap with such a law turns by another speed or pitch than its reference.
+            assert joint["speed_exponent"] == joint["pitch_exponent"] == 0.0
+            held = max(pressure, 15.0) / max(joint["reference_pressure_MPa"], 15.0)
+            law = held ** (joint["pressure_exponent"] - 1.0)
+        worn += joint["specific_wear_rate_mm2_per_N"] * law * pressure
+    loop = worn * turning / case.drive.chain.pitch
     pitches = inputs["sprocket"]["teeth"] / inputs["sprocket"].get("engaged_every", 1)
     loops = 60.0 * inputs["load"]["speed_rpm"] * pitches / layout.links
     dirt = inputs.get("lubrication", {}).get("contamination_factor", 1.0)
