@@ -29,6 +29,7 @@ sprocket = {{ teeth = {teeth}, profile = "{profile}", nodes = 301{more} }}
 mechanism = {{ kind = "wrap", phases = 1 }}
 load = {{ power_kW = 1, speed_rpm = 100 }}
 wear.specific_wear_rate_mm2_per_N = 1e-9
+joint.law = "constant"
 stop.critical_depth_mm = 0.02
 drive = {{ links = {links} }}
 run = {{ method = "per_cycle", cycles_per_update = 10000, horizon_hours = 100 }}

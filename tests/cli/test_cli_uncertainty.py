@@ -65,12 +65,16 @@ def test_independent_scatters_add_in_squares(cli, case):
     assert ratio == pytest.approx(math.exp(-Z10 * 0.5), rel=0.01)
 
 
-def test_published_scatter_is_the_default(cli, case):
+def test_the_band_is_the_default(cli, case):
+    """Of "hardened, oiled", 1.7e-11, 5e-11 and 1.5e-10 mm2/N: 90 % of a log-normal one."""
     _, found = answer(cli, case(), "--samples", 256)
     (inputs,) = found["inputs"].values()
-    assert inputs == {"distribution": "lognormal", "sigma_ln": 0.5}
-    assert found["p10_hours"] / found["p50_hours"] == pytest.approx(math.exp(-0.5 * Z10), rel=0.02)
-    assert any("sigma_ln = 0.5, the scatter of published" in text for text in found["assumptions"])
+    sigma = math.log(1.5e-10 / 1.7e-11) / (2.0 * 1.6448536)
+    median = math.sqrt(1.7e-11 * 1.5e-10)
+    assert inputs.pop("distribution") == "lognormal"
+    assert inputs == pytest.approx({"median": median, "sigma_ln": sigma}, rel=1e-6)
+    assert found["p10_hours"] / found["p50_hours"] == pytest.approx(math.exp(-sigma * Z10), rel=0.03)
+    assert any("90 % of it 0.34 to 3 times 5e-11, its band" in text for text in found["assumptions"])
 
 
 def test_text_tells_the_same(cli, case):

@@ -25,7 +25,17 @@ from wearsim.report.workbook.workbook_writer import (
 )
 from wearsim.result import Life, WearResult
 
-_NOT_SHOWN = ("schema_version", "title", "limits", "overloaded", "ratings", "assumptions", "warnings")
+_NOT_SHOWN = (
+    "schema_version",
+    "title",
+    "limits",
+    "overloaded",
+    "ratings",
+    "ends",
+    "practice",
+    "assumptions",
+    "warnings",
+)
 _LABEL, _UNIT, _VALUE, _MEANING = 32, 12, 24, 60
 _FIRST_VALUE = 2
 _BOLD = ("life", "overloaded", "life_hours")

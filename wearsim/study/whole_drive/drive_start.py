@@ -105,7 +105,7 @@ def _as_typed(value: float, text: str | None, unit: str) -> str:
 
 def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> dict[str, Any]:
     """Return what the template shows."""
-    from wearsim.study.whole_drive.keys import SERVICE_YEARS
+    from wearsim.study.whole_drive.keys import LONGEST, SERVICE_YEARS
 
     factors, (condition, oil) = use_factors(values), LUBRICATIONS[values["lubrication"]]
     case = drive.driver.case
@@ -132,8 +132,9 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
         "why": _WHY[condition],
         "condition": condition,
         "hours": values["hours_per_day"],
-        "horizon": SERVICE_YEARS * DAYS_OF_YEAR * values["hours_per_day"],
+        "horizon": min(LONGEST, SERVICE_YEARS * DAYS_OF_YEAR * values["hours_per_day"]),
         "years": SERVICE_YEARS,
+        "longest": LONGEST,
         "elongation": case.inputs["stop"]["elongation_percent"],
     }
 
