@@ -1,6 +1,7 @@
 """Commands about one case or several, given a whole drive."""
 
 import json
+import math
 import sys
 
 import pandas as pd
@@ -289,7 +290,10 @@ def test_readings_of_teeth_ask_for_the_case_of_one_sprocket(cli, drive, tmp_path
 
 
 def test_bounds_on_screen_stand_in_json_and_workbook(cli, drive, tmp_path):
-    """Joints that are hardened and oiled: 9e-11 to 1.5e-10 mm2/N about 1.2e-10, 1.25 and 0.75 of it."""
+    """Joints that are hardened and oiled: 9e-11 to 1.5e-10 mm2/N about 1.2e-10, 1.25 and 0.75 of it.
+
+    With the spread of published rules, 2.5 and 0.5, and 1.8 as the drive is slow; logarithms add as squares.
+    """
     path, book = tmp_path / "oiled.toml", tmp_path / "oiled.xlsx"
     text = drive.read_text().replace("[joint]\nspecific_wear_rate_mm2_per_N = 1e-8\n", "")
     path.write_text(text.replace("specific_wear_rate_mm2_per_N = 5e-9", 'condition = "hardened, oiled"'))
@@ -297,7 +301,10 @@ def test_bounds_on_screen_stand_in_json_and_workbook(cli, drive, tmp_path):
     found = json.loads(cli("life", path, *few, "--json", "--xlsx", book).out)
     assert found["first"] == "chain"
     chain, low, high = (found[name] for name in ("chain_life_hours", "life_hours_low", "life_hours_high"))
-    assert (low, high) == (pytest.approx(chain / 1.25), pytest.approx(chain / 0.75))
+    most, least = (
+        math.exp(math.hypot(*map(math.log, factors))) for factors in ((1.25, 2.5, 1.8), (1 / 0.75, 2.0, 1.8))
+    )
+    assert (low, high) == (pytest.approx(chain / most), pytest.approx(chain * least))
     motor, roll = found["sprockets"]
     assert (roll["life_hours_low"], motor["life_hours_high"]) == (pytest.approx(low), pytest.approx(high))
     sheet = pd.read_excel(book, sheet_name=0, header=None).astype(str)

@@ -392,7 +392,9 @@ def test_a_cassette_is_one_part(four_cogs):
         "cassette 17T": LowerBound(1.0, 9000.0),
         "cassette 19T": LowerBound(1.0, 9000.0),
     }
-    found = SimpleNamespace(drive=load_drive(four_cogs), chain=Life(1.0, 7000.0), sprockets=sprockets)
+    found = SimpleNamespace(
+        drive=load_drive(four_cogs), chain=Life(1.0, 7000.0), sprockets=sprockets, failed={}
+    )
     lives = part_lives(found)
     assert {name: (type(life), life.hours_run) for name, life in lives.items()} == {
         "chain": (Life, 7000.0),
