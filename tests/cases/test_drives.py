@@ -75,11 +75,10 @@ def assert_short(found: DriveLife) -> list[str]:
     assert lines[0] == found.drive.title
     labels = [line.split()[0] for line in lines[1:] if line[2] != " "]
     assert labels[0] == "Chain"
-    rest = ("First", "Then", "Band", "Ratings", "Practice", "Worn", "Warnings", "Assumes", "Next")
-    # Where published rules are outside the band of the chain they take the line of what is worn most.
-    optional = {"Then", "Practice", "Worn"} - set(labels)
-    assert [label for label in labels if label in rest] == [one for one in rest if one not in optional]
-    assert ("Practice" in labels) != ("Worn" in labels)
+    rest = ("First", "Then", "Band", "Ratings", "Worn", "Warnings", "Assumes", "Next")
+    assert [label for label in labels if label in rest] == [
+        one for one in rest if one != "Then" or "Then" in labels
+    ]
     assert len(lines) <= 12, "\n".join(lines)
     assert max(map(len, lines[1:])) <= 100
     return lines

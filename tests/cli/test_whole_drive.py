@@ -1,6 +1,7 @@
 """A drive with both sprockets: ``wearsim life`` and ``wearsim check`` of [[sprocket]]."""
 
 import json
+import math
 
 import pandas as pd
 import pytest
@@ -115,7 +116,7 @@ def test_the_answer_takes_twelve_lines(cli, drive, monkeypatch):
 def test_overload_stands_beside_the_hours(cli, drive):
     text = cli("life", drive, "--set", "load.power_kW=15").out
     assert "OVERLOADED: " in text
-    assert "hours of wear only" in text
+    assert "life counts wear only" in text or "beyond its rating for 15 000 h" in text
 
 
 def test_keys_of_one_sprocket_change_its_life_alone(cli, drive):
@@ -137,12 +138,12 @@ def test_the_wear_of_one_sprocket_leaves_the_joints_of_the_chain_alone(cli, tmp_
     found = drive_life(load_drive(path, ["run.horizon_hours=600"]))
     chains = [result.parts["chain"].hours_run for result in found.results.values()]
     assert chains[0] == pytest.approx(chains[1], rel=1e-12)
-    joint = found.drive.driver.drive.joint
-    # 7e-9 mm2/N, from 1.1e-9 to 4.4e-8, by the table of wear conditions.
-    assert (joint.low, joint.high) == (1.1e-9, 4.4e-8)
+    # 7e-9 mm2/N, from 1.1e-9 to 4.4e-8, by the table of wear conditions, with the spread of published rules.
+    assert found.drive.driver.drive.joint.coefficient == 7e-9
     low, high = found.band("chain")
-    assert high.hours_run / low.hours_run == pytest.approx(40.0)
-    assert low.hours_run == pytest.approx(chains[0] * joint.coefficient / 4.4e-8)
+    most, least = (math.exp(math.hypot(*map(math.log, of))) for of in ((44 / 7, 2.5), (7 / 1.1, 2.0)))
+    assert low.hours_run == pytest.approx(chains[0] / most)
+    assert high.hours_run == pytest.approx(chains[0] * least)
 
 
 def test_folder_of_a_drive_runs_again(cli, tmp_path, two_sprockets):

@@ -2,10 +2,10 @@
 
 import shlex
 
+from wearsim.quantities import grouped
 from wearsim.report.answer import hours, used_text
 from wearsim.report.text_lines import counted, listed, numbered, row
 from wearsim.result import Life
-from wearsim.result.second_opinions import practice_text
 from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
 from wearsim.study.whole_drive.model import CHAIN, DriveLife
 from wearsim.study.whole_drive.plan import Stop
@@ -64,26 +64,26 @@ def _all_rows(found: DriveLife) -> list[str]:
 
 def _short_rows(found: DriveLife) -> list[str]:
     """Return a line for each finding; a warning takes the lines that are left."""
-    band = band_text(found)
     before = [
         *_part_rows(found),
         *_stop_rows(drive_plan(found)),
-        _line("Band", band, band.partition(",")[0]),
+        _line("Band", *_band(found)),
         _line("Ratings", *_ratings(found)),
-        _practice_row(found) or _line("Worn most", *_worn_most(found)),
+        _line("Worn most", *_worn_most(found)),
     ]
     assumes = row("Assumes", counted(*taken_for_granted(found)))
     left = _MAX_LINES - _TITLE_ASSUMES_NEXT - len(before)
     return [*before, row("Warnings", _first_warning(found.warnings), max(left, 1)), assumes]
 
 
-def _practice_row(found: DriveLife) -> str:
-    """Return what published rules say where that is outside the band of the chain; empty where it is not."""
-    practice = found.practice
-    if practice is None or (practice_agrees(found) and not practice.outside):
-        return ""
-    said = practice_text(practice)
-    return _line("Practice", said if practice.outside else f"outside the band of the chain: {said}", said)
+def _band(found: DriveLife) -> list[str]:
+    """Return the band, with what published rules say where that is outside of it; then less of it."""
+    whole = band_text(found)
+    short, practice = whole.partition(",")[0], found.practice
+    if practice is None or practice.span is None or practice_agrees(found):
+        return [whole, short]
+    low, high = (grouped(end, 3) for end in practice.span)
+    return [f"{short}; by published rules {low} to {high} h", f"{short}; published rules differ"]
 
 
 def _line(label: str, *forms: str) -> str:
