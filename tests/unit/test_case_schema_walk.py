@@ -457,7 +457,7 @@ CHANGES = {
         ("wrap", 0.01, "sprocket.dxf_join_tolerance_mm"),
     ],
     "drive.mate_teeth": [("wrap", 21), ("strand", 21, "drive.mate_teeth")],
-    "drive.links": [("wrap", 62), ("wrap", 61, "drive.links"), ("distance", 60, "drive.centre_distance_mm")],
+    "drive.links": [("wrap", 62), ("wrap", 12, "drive.links"), ("distance", 60, "drive.centre_distance_mm")],
     "drive.centre_distance_mm": [("distance", 300), ("distance", 20, "drive.centre_distance_mm")],
     "drive.slack_tension_N": [("wrap", 31), ("wrap", 0.01, "drive.slack_tension_N")],
     "drive.sag_percent": [("own wrap", 1.9), ("wrap", 2, "drive.sag_percent")],
