@@ -65,7 +65,7 @@ def oiled(grown, coefficient, excess, later_rate, request):
     amount, distance = excess
     case = wearsim.load_case(request.path.parents[2] / "cases" / f"{CASE}.toml")
     cycles_per_km = case.cycles_per_hour / KM_PER_HOUR
-    path = case.drive.contact(case).sliding_per_cycle * cycles_per_km * distance
+    path = case.drive.contact(case).joint_sliding_per_cycle * cycles_per_km * distance
     return grown(
         coefficient,
         2500.0,

@@ -284,7 +284,7 @@ def test_a_calibrated_case_is_believed():
     assert again.model_hours * 3.0 / 2.9 == pytest.approx(part.life, rel=1e-6)
     band = max(value.interval.high / value.value, value.value / value.interval.low)
     assert fitted.found.tables["joint"]["band_factor"] == pytest.approx(band)
-    typed = case.with_({JOINT: 1.01 * value.value})
+    typed = case.with_({JOINT: 30.0 * value.value})
     assert any("contradicts" in text for text in typed.warnings)
 
 
