@@ -310,8 +310,9 @@ def test_dirt_all_the_time_multiplies_the_wear() -> None:
     steady = life(WRAP)
     found = life(WRAP, "lubrication.contamination_factor=2.5")
     assert found.life.hours_run == pytest.approx(steady.life.hours_run / 2.5, rel=1e-12)
+    # Where its rollers rest is sought anew in every step, to some digits of their places.
     assert found.parts["sprocket"].hours_run == pytest.approx(
-        steady.parts["sprocket"].hours_run / 2.5, rel=1e-12
+        steady.parts["sprocket"].hours_run / 2.5, rel=1e-8
     )
 
 

@@ -354,7 +354,10 @@ def test_rating_point_has_every_finding() -> None:
         "recommended speed",
         "greatest speed",
         "safety against breaking",
+        "galling speed",
     }
+    # 1172.4 N = 263.6 lbf: 82.5/(2.8196 1.6836 1.0766) = 16.143, to the power of 1/1.3944 7.351.
+    assert found["galling speed"].limit == pytest.approx(7351.0, rel=1e-3)
     assert all(entry.source for entry in found.values())
     assert found["plate fatigue"].value / found["plate fatigue"].limit == pytest.approx(1, abs=1e-3)
     assert found["joint pressure"].value == pytest.approx(1144.0 / 44.5, rel=1e-3)
@@ -451,7 +454,7 @@ def test_speed_beyond_the_limit_is_found() -> None:
 
 def test_unknown_numbers_leave_their_findings_out() -> None:
     names = [found.name for found in assess(RatedDrive(9.525, 20, 750.0, 1.0))]
-    assert names == ["plate fatigue", "roller impact", "corrected power"]
+    assert names == ["plate fatigue", "roller impact", "corrected power", "galling speed"]
 
 
 @pytest.mark.parametrize(
