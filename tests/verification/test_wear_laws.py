@@ -19,6 +19,8 @@ from wearsim.errors import CaseError, ConvergenceError
 from wearsim.simulation.wear_task import wear_law
 from wearsim.study.remaining.model import SingleReading, remaining_life
 from wearsim.wear.cycles_power import CyclesPower
+from wearsim.wear.lubricant_clock import LubricatedClock
+from wearsim.wear.mate_clock import MateClock
 from wearsim.wear.severity import severe_multiple, t_gamma_depth, t_gamma_energy, t_gamma_rate
 
 CaseMaker = Callable[..., wearsim.Case]
@@ -191,7 +193,8 @@ def test_the_clock_goes_back(exponent: float, run: float) -> None:
     worn = clock.steady_cycles(run)
     assert worn == pytest.approx(1e4 * math.exp(exponent * math.log(run / 1e4)), rel=1e-12)
     assert clock.running_cycles(np.array([worn]))[0] == pytest.approx(run, rel=1e-12)
-    assert clock.until_renewed(3e5, clock.renewed(3e5, 8e5)) == pytest.approx(8e5, rel=1e-12)
+    renewed = MateClock(LubricatedClock(clock), clock).put_on(3e5)
+    assert renewed.until(renewed.worn(8e5)) == pytest.approx(8e5, rel=1e-12)
 
 
 def test_remaining_life_of_a_power_of_the_cycles(flat: CaseMaker) -> None:
