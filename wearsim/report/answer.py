@@ -163,7 +163,10 @@ def chain_rows(
     """Return a line for everything that may end a part, for every published rule and for every event."""
     rows = {
         "Ends": [", ".join(cell for cell in row if cell != "-") for row in end_rows(ends)],
-        "Rules": [f"{rule}: {told} ({trust}; {why})" for rule, told, trust, why in rule_rows(practice)],
+        "Rules": [
+            f"{rule}: {told} ({trust}{f'; {why}' if why != '-' else ''})"
+            for rule, told, trust, why in rule_rows(practice)
+        ],
         "Events": [
             f"{told}{f' ({day})' if day != '-' else ''}: {part} {what}"
             for told, day, part, what in event_rows(events)

@@ -91,18 +91,18 @@ def practice_text(found: SecondOpinions) -> str:
     )
 
 
-RULE_HEAD = ("published rule", "hours", "trust", "note and source")
+RULE_HEAD = ("published rule", "hours", "trust", "note")
 """Heads of `rule_rows`."""
 
 
 def rule_rows(found: SecondOpinions) -> list[tuple[str, str, str, str]]:
-    """Return every rule with its hours or why it has none, its trust and its source."""
+    """Return every rule with its hours, its trust, and why it has none or what limits their worth."""
     return [
         (
             rule.rule,
             f"{grouped(rule.hours, 3)} h" if rule.hours is not None else "-",
             rule.trust,
-            "; ".join(filter(None, (rule.note, rule.source))),
+            rule.note or "-",
         )
         for rule in found.rules
     ]
