@@ -176,7 +176,7 @@ def joint_band(
     Returns
     -------
     JointBand
-        Its ends hold 90 % of the published rules on 27 drives (docs/practice.md) and five of six owners.
+        Its ends hold 93 % of the published rules on 27 drives (docs/practice.md) and six of six owners.
 
     Examples
     --------

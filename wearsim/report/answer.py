@@ -64,9 +64,9 @@ def beyond_ratings(overloaded: Sequence[RatingFinding]) -> str:
 def practice_line(result: WearResult) -> str:
     """Return what published rules say of the chain, and whether that is within its band."""
     assert result.practice is not None
-    ends = [one.hours_run for one in (result.parts["chain"], *result.bands["chain"])]
-    differs = "" if result.practice.within(*ends) else "outside the band of the chain: "
-    return f"{differs}{practice_text(result.practice)}"
+    low, high = result.bands["chain"]
+    agrees = result.practice.within(low.hours_run, high.hours_run)
+    return f"{'' if agrees else 'outside the band of the chain: '}{practice_text(result.practice)}"
 
 
 def limit_text(name: str, value: float) -> str:

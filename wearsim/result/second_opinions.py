@@ -28,7 +28,7 @@ class SecondOpinions:
     --------
     >>> drive = PracticeDrive(19.05, 21, 57 / 21, 120.0, 124, 3750.0, 89.3, 5.72)
     >>> found = second_opinions(drive)
-    >>> found.within(9600.0, 3200.0, 25_000.0), found.within(77_050.0, 61_640.0, 102_700.0)
+    >>> found.within(3200.0, 25_000.0), found.within(61_640.0, 102_700.0)
     (True, False)
     """
 
@@ -43,7 +43,7 @@ class SecondOpinions:
         hours = [rule.hours for rule in self.rules if rule.hours is not None]
         return (min(hours), max(hours)) if hours else None
 
-    def within(self, life: float, low: float, high: float) -> bool:
+    def within(self, low: float, high: float) -> bool:
         """Return whether the mean of the rules lies in the band of a computed life [h]."""
         return self.mean_hours is None or low <= self.mean_hours <= high
 

@@ -57,8 +57,8 @@ def found_rows(found: DriveLife) -> list[tuple[str, str]]:
 
 def practice_agrees(found: DriveLife) -> bool:
     """Return whether the published rules lie within the band of the chain."""
-    ends = [one.hours_run for one in (found.chain, *found.band(CHAIN))]
-    return found.practice is None or found.practice.within(*ends)
+    low, high = found.band(CHAIN)
+    return found.practice is None or found.practice.within(low.hours_run, high.hours_run)
 
 
 def against_hours(found: DriveLife, only_worst: bool = False) -> str:
