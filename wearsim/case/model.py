@@ -242,6 +242,20 @@ class WearBand(NamedTuple):
     source: str  # where the band comes from
 
 
+_NORMAL_95 = 1.6448536269514722
+
+
+def log_deviation(low: float, high: float) -> float:
+    """Return the standard deviation of the logarithm of a log-normal factor whose band holds 90 %.
+
+    Examples
+    --------
+    >>> round(log_deviation(0.5, 2.0), 4)  # ln 2/1.645
+    0.4214
+    """
+    return 0.5 * math.log(high / low) / _NORMAL_95
+
+
 @dataclass(frozen=True)
 class FilmInput:
     """The oil between the flanks and their roughness."""

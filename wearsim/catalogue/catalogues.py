@@ -297,6 +297,10 @@ def materials() -> dict[str, Material]:
     }
 
 
+USUAL_CONDITION = "hardened, oiled"
+"""Wear condition whose joints a chain has where none is named."""
+
+
 @cache
 def wear_conditions() -> dict[str, WearCondition]:
     """Return the wear conditions by name."""

@@ -50,6 +50,10 @@ class JointLaw:
         held = max(pressure, LEAST_PRESSURE) / max(self.reference_pressure, LEAST_PRESSURE)
         return float(held ** (self.pressure_exponent - 1.0))
 
+    def wearing_pressure(self, pressure: float) -> float:
+        """Return a pressure in the joint times the rate there over that at the reference pressure [MPa]."""
+        return pressure * self.pressure_factor(pressure)
+
     def turning_factor(self, speed: float, pitch: float) -> float:
         """Return the rate at a speed of the small sprocket [rpm] and a pitch [mm] over the reference."""
         turning = _held(self.reference_speed, TURNING) / _held(speed, TURNING)

@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from wearsim.chain.practice import geometric_mean, opinions, outside_practice
-from wearsim.chain.practice_drive import PracticeDrive
 from wearsim.quantities import grouped
+
+if TYPE_CHECKING:
+    from wearsim.chain.practice_drive import PracticeDrive
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,7 @@ class SecondOpinions:
 
     Examples
     --------
+    >>> from wearsim.chain.practice_drive import PracticeDrive
     >>> drive = PracticeDrive(19.05, 21, 57 / 21, 120.0, 124, 3750.0, 89.3, 5.72)
     >>> found = second_opinions(drive)
     >>> found.within(3200.0, 25_000.0), found.within(61_640.0, 102_700.0)
@@ -48,8 +50,11 @@ class SecondOpinions:
         return self.mean_hours is None or low <= self.mean_hours <= high
 
 
-def second_opinions(drive: PracticeDrive) -> SecondOpinions:
+def second_opinions(drive: "PracticeDrive") -> SecondOpinions:
     """Return what the published rules say of a drive."""
+    # Read by a chain's life only: a strand starts without the tables of the rules.
+    from wearsim.chain.practice import geometric_mean, opinions, outside_practice
+
     found = opinions(drive)
     return SecondOpinions(
         tuple(RuleLife(one.rule.name, one.hours, one.rule.trust, one.rule.source, one.note) for one in found),
@@ -59,7 +64,7 @@ def second_opinions(drive: PracticeDrive) -> SecondOpinions:
     )
 
 
-def _lubrication(drive: PracticeDrive) -> str:
+def _lubrication(drive: "PracticeDrive") -> str:
     """Say what is recommended where a poorer lubrication is known, and what that does to the life."""
     found = drive.lubrication_factor
     if not drive.lubrication or found.factor >= 1.0:
@@ -76,6 +81,7 @@ def practice_text(found: SecondOpinions) -> str:
 
     Examples
     --------
+    >>> from wearsim.chain.practice_drive import PracticeDrive
     >>> practice_text(second_opinions(PracticeDrive(19.05, 21, 57 / 21, 120.0, 124, 3750.0, 89.3, 5.72)))
     '4 100 to 16 100 h by 7 published rules, mean of the schools 7 017 h (practice, no measurement)'
     """

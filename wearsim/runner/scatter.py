@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from wearsim.case.model import Case, WearBand
+from wearsim.case.model import Case, WearBand, log_deviation
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import CaseSource, Document, read_document
@@ -16,10 +16,6 @@ from wearsim.result.folder import file_paths
 from wearsim.runner.case_kind import ONE_SPROCKET, CaseKind
 from wearsim.runner.design import Design, design, replaced, value_at
 from wearsim.runner.distributions import described, quantile
-
-NORMAL_95 = 1.6448536269514722
-"""Standard deviations from the median of a normal distribution to the ends of 90 % of it."""
-
 
 WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([fatigue])"
 
@@ -111,7 +107,7 @@ def _coefficients(case: Case) -> dict[str, tuple[float, WearBand]]:
 def _banded(value: float, band: WearBand) -> Distribution:
     """Return the log-normal distribution of which a band holds 90 %."""
     median = value * math.sqrt(band.low * band.high)
-    sigma = 0.5 * math.log(band.high / band.low) / NORMAL_95
+    sigma = log_deviation(band.low, band.high)
     return Distribution(distribution="lognormal", median=median, sigma_ln=sigma)
 
 

@@ -334,8 +334,7 @@ class WrapDrive(Drive):
         law, area = self.joint.law, self.joint.bearing_area
 
         def weighted(span: float, turning: float) -> float:
-            pressure = (span + block.centrifugal) / area
-            return pressure * law.pressure_factor(pressure) * turning
+            return law.wearing_pressure((span + block.centrifugal) / area) * turning
 
         return [
             (weighted(on, turning), weighted(off, turning))

@@ -6,7 +6,14 @@ from dataclasses import astuple, replace
 
 from wearsim.case.model import WearBand, WearInput
 from wearsim.case.table_inputs import DEFAULT_BAND
-from wearsim.catalogue.catalogues import Chain, Environment, WearCondition, environments, wear_conditions
+from wearsim.catalogue.catalogues import (
+    USUAL_CONDITION,
+    Chain,
+    Environment,
+    WearCondition,
+    environments,
+    wear_conditions,
+)
 from wearsim.chain.drive_layout import DriveLayout
 from wearsim.chain.joint_wear import JointBand, JointLaw, JointState, extrapolated, joint_band, joint_law
 from wearsim.chain.loop_layout import LoopLayout
@@ -21,9 +28,6 @@ from wearsim.mechanisms.wrap.drive import (
     WrapLoad,
     law_keys,
 )
-
-WELL_LUBRICATED = "hardened, oiled"
-"""Wear condition whose joints a drive has where its case names none."""
 
 
 def alternates(case: ChainRecord) -> bool:
@@ -123,7 +127,7 @@ def _named(case: ChainRecord) -> str | None:
 
 
 def _condition(case: ChainRecord) -> WearCondition:
-    return wear_conditions()[_named(case) or WELL_LUBRICATED]
+    return wear_conditions()[_named(case) or USUAL_CONDITION]
 
 
 def _rollers(case: ChainRecord) -> float:
@@ -177,7 +181,7 @@ def _say_law(case: ChainRecord, law: JointLaw, condition: WearCondition, state: 
     of = f"wear condition {name}" if _named(case) else f"as in {name}, none is named"
     ends = f"{condition.joint_low:g} to {condition.joint_high:g}"
     case.take(JOINT_COEFFICIENT, law.coefficient, f"{of}: {ends}; {condition.joint_source}")
-    case.inputs["joint"] |= {key.partition(".")[2]: value for key, value in law_keys(law).items()}
+    _record_law(case, law)
     if not law.is_constant:
         case.assumptions.append(f"{_law_in_words(law)}; here {law.rate(*state):.3g} mm2/N {_at(state)}")
 
@@ -191,8 +195,12 @@ def _say_own_law(case: ChainRecord, law: JointLaw, condition: WearCondition, sta
     if law.is_constant:
         case.take("joint.law", CONSTANT, "a rate that is given holds at every pressure and speed")
     else:
-        case.inputs["joint"] |= {key.partition(".")[2]: value for key, value in law_keys(law).items()}
+        _record_law(case, law)
         case.assumptions.append(_law_in_words(law))
+
+
+def _record_law(case: ChainRecord, law: JointLaw) -> None:
+    case.inputs["joint"] |= {key.partition(".")[2]: value for key, value in law_keys(law).items()}
 
 
 def _law_in_words(law: JointLaw) -> str:

@@ -9,13 +9,13 @@ from scipy.optimize import brentq
 from scipy.special import log_ndtr
 from scipy.stats import chi2
 
+from wearsim.case.model import log_deviation
 from wearsim.geometry.profile_points import Vector
 from wearsim.study.remaining.chain_readings import ChainReading
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 """Probabilities of the quantiles that are told: ends of 90 and 50 %, and the middle."""
 
-_NORMAL_95 = 1.6448536269514722
 _NO_BAND = 1e-6
 _FAR = 8.0
 """Standard deviations of the prior, and of a measured factor's logarithm, that the grid reaches out."""
@@ -43,7 +43,7 @@ class FactorPrior:
     @property
     def sigma(self) -> float:
         """Standard deviation of its logarithm; not 0, where the case has no band."""
-        return max(0.5 * math.log(self.high / self.low) / _NORMAL_95, _NO_BAND)
+        return max(log_deviation(self.low, self.high), _NO_BAND)
 
 
 @dataclass(frozen=True)

@@ -231,10 +231,12 @@ def chain_life(
     0.03
     """
     teeth = layout.teeth_1, layout.teeth_2
-    law, tight, slack = joint_law(need.joints), *pressures
+    law = joint_law(need.joints)
     turning = law.turning_factor(_small_speed(need, layout), chain.pitch)
-    weighted = tight * law.pressure_factor(tight) * turning, slack * law.pressure_factor(slack) * turning
-    growth = elongation_per_loop(law.coefficient, [weighted] * 2, chain.pin_diameter, chain.pitch, teeth)
+    tight, slack = (law.wearing_pressure(pressure) * turning for pressure in pressures)
+    growth = elongation_per_loop(
+        law.coefficient, [(tight, slack)] * 2, chain.pin_diameter, chain.pitch, teeth
+    )
     loops = 60.0 * need.speed * layout.teeth_1 / layout.links
     return elongation_limit(max(teeth)) / (growth * loops)
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from wearsim.catalogue.catalogues import WearCondition, wear_conditions
+from wearsim.catalogue.catalogues import USUAL_CONDITION, WearCondition, wear_conditions
 from wearsim.errors import CaseError, Fault, Range
 
 SERIES = {"A": "ISO606-A/ANSI B29.1", "B": "ISO606-B", "H": "ISO606-H", "GOST": "GOST13568"}
@@ -41,9 +41,6 @@ _RANGES: dict[str, tuple[Range, str]] = {
 """What a number may be, and what to do where it is not."""
 
 _OPTIONAL = ("centre", "centre_min", "centre_max", "max_diameter")
-
-USUAL_CONDITION = "hardened, oiled"
-"""Wear condition whose joints a chain has where none is named."""
 
 _NOTHING_LOST = 1e-9
 """Part of a tooth by which rounding may move a bound."""

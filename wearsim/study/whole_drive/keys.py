@@ -8,6 +8,7 @@ from typing import Any
 
 from wearsim.case.input_lines import input_lines
 from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import USUAL_CONDITION
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import CaseSource, Document, GivenInput, read_document
@@ -16,7 +17,6 @@ from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.kernels.compiled import expect
 from wearsim.mechanisms.wrap.build import read
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad, wrap_drive
-from wearsim.mechanisms.wrap.joints import WELL_LUBRICATED
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 from wearsim.notebook import html_rows, one_line
 from wearsim.quantities import DAYS_OF_YEAR
@@ -399,7 +399,7 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
         tables["wear"] = wheel.own["wear"]
         # All sprockets have one chain: its joints take the state of the drive, not that of this sprocket.
         of_drive = table_of({"wear": data.get("wear", driver.own.get("wear", {}))}, "wear").get("condition")
-        tables["joint"] = {"condition": of_drive or WELL_LUBRICATED, **table_of(data, "joint")}
+        tables["joint"] = {"condition": of_drive or USUAL_CONDITION, **table_of(data, "joint")}
     if wheel.place.price is not None:
         tables["maintenance"] = {**table_of(data, "maintenance"), "sprocket_price": wheel.place.price}
     if "material" in wheel.own:
