@@ -11,7 +11,7 @@ from datetime import date
 from pathlib import Path
 
 import wearsim
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_single
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.result import Life, WearResult
 
@@ -38,7 +38,7 @@ DEPTH_PER_PITCH = 0.02
 
 def tables(name: str, sprocket: dict[str, object]) -> dict[str, object]:
     """A drive with another tooth form, its chain by dimensions so that no standard objects."""
-    case = load_case(ROOT / "cases" / f"{name}.toml")
+    case = load_single(ROOT / "cases" / f"{name}.toml")
     chain = case.drive.chain
     inputs = {key: dict(value) if isinstance(value, dict) else value for key, value in case.inputs.items()}
     keep = ("teeth", "role", "engaged_every", "face_width_mm")
@@ -68,7 +68,7 @@ def one(job: tuple[str, str]) -> tuple[str, str, list[str]]:
     """A row of the table of one drive and form."""
     letter, form = job
     try:
-        case = load_case(tables(DRIVES[letter], FORMS[form]))
+        case = load_single(tables(DRIVES[letter], FORMS[form]))
         result = wearsim.simulate(case)
         loads = [tooth_loads(case, eps).loads for eps in (0.0, case.drive.joint.elongation_limit)]
     except wearsim.WearsimError as error:
@@ -105,7 +105,7 @@ def pictures() -> list[str]:
                 k: base["chain"][k] for k in ("pitch_mm", "roller_diameter_mm", "inner_width_mm")
             }
             case = {k: v for k, v in case.items() if k not in ("drive", "joint")}
-        result = wearsim.simulate(load_case(case))
+        result = wearsim.simulate(load_single(case))
         life = result.parts.get("sprocket", result.life)
         area = float(result.history_columns["removed_area_mm2"][-1])
         rows.append(

@@ -24,13 +24,13 @@ TABLES: Mapping[str, Any] = {
 
 def main() -> None:
     """Use every public function once."""
-    case = assert_type(wearsim.load_case(TABLES), wearsim.Case)
-    case = assert_type(case.with_({"load.tension_N": "900 N"}), wearsim.Case)
+    case = assert_type(wearsim.load_case(TABLES), wearsim.Case | wearsim.DriveCase)
+    case = assert_type(case.with_({"load.tension_N": "900 N"}), wearsim.Case | wearsim.DriveCase)
     drive = assert_type(wearsim.select(power=2, rpm=150, ratio=2, hours=5000).case(), wearsim.DriveCase)
     drive = assert_type(drive.with_({"mechanism.phases": 2, "run.life_tolerance": 0.1}), wearsim.DriveCase)
 
     with wearsim.progress_bar("wearing") as progress:
-        result = assert_type(wearsim.simulate(case, progress), wearsim.WearResult)
+        result = assert_type(wearsim.simulate(case, progress), wearsim.WearResult | wearsim.DriveLife)
     assert_type(result.history, pd.DataFrame)
     assert_type(result.plot(), Figure)
     life = result.life
@@ -70,6 +70,6 @@ def main() -> None:
     assert_type(best.cases, list[wearsim.Case])
 
 
-def calibrated(case: wearsim.Case, readings: pd.DataFrame) -> pd.DataFrame:
+def calibrated(case: wearsim.Case | wearsim.DriveCase, readings: pd.DataFrame) -> pd.DataFrame:
     """Return the hours that are left, which needs an extra to be installed."""
     return assert_type(wearsim.calibrate(case, readings), wearsim.CalibrationResult).parts

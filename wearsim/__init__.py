@@ -13,8 +13,8 @@ _PUBLIC = {
     "CheckResult": "wearsim.python.check",
     "ContactError": "wearsim.errors",
     "ConvergenceError": "wearsim.errors",
-    "DriveCase": "wearsim.study.whole_drive.keys",
-    "DriveLife": "wearsim.study.whole_drive.model",
+    "DriveCase": "wearsim.drive.drive_case",
+    "DriveLife": "wearsim.drive.drive_result",
     "ExportResult": "wearsim.python.export",
     "GeometryError": "wearsim.errors",
     "JudgementResult": "wearsim.python.judge",
@@ -34,8 +34,7 @@ _PUBLIC = {
     "check": "wearsim.python.check",
     "export": "wearsim.python.export",
     "judge": "wearsim.python.judge",
-    "load_case": "wearsim.case.load_case",
-    "load_drive": "wearsim.study.whole_drive.keys",
+    "load_case": "wearsim.drive.load_case",
     "loads": "wearsim.python.loads",
     "lubricate": "wearsim.python.lubricate",
     "maintain": "wearsim.python.maintain",
@@ -53,8 +52,10 @@ _FORMER: dict[str, tuple[str, str]] = {}
 """Names of before: what they are called now, and the version that will be without them."""
 
 if TYPE_CHECKING:
-    from wearsim.case.load_case import load_case
     from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
+    from wearsim.drive.drive_result import DriveLife
+    from wearsim.drive.load_case import load_case
     from wearsim.errors import CaseError, ContactError, ConvergenceError, GeometryError, WearsimError
     from wearsim.python.calibrate import CalibrationResult, calibrate
     from wearsim.python.chain_readings import ChainReadingsResult
@@ -73,8 +74,6 @@ if TYPE_CHECKING:
     from wearsim.python.uncertainty import UncertaintyResult, uncertainty
     from wearsim.result import Life, LowerBound, WearResult
     from wearsim.simulation.batch_lives import simulate_many
-    from wearsim.study.whole_drive.keys import DriveCase, load_drive
-    from wearsim.study.whole_drive.model import DriveLife
 
 __all__ = [
     "CalibrationResult",
@@ -107,7 +106,6 @@ __all__ = [
     "export",
     "judge",
     "load_case",
-    "load_drive",
     "loads",
     "lubricate",
     "maintain",

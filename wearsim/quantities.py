@@ -1,6 +1,8 @@
 """The one table of names: every input key and output column with symbol, unit and meaning; its numbers."""
 
 import csv
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -40,3 +42,32 @@ def grouped(value: float, digits: int = 4) -> str:
     if abs(rounded) >= 10 ** (digits - 1):
         return f"{rounded:,.0f}".replace(",", " ")
     return f"{rounded:.{digits}g}"
+
+
+_NUMBER = re.compile(r"(?<![\w.])(?<!\w-)-?\d+(?: \d{3})*(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
+"""A number as it is printed, with what sets its thousands apart."""
+
+
+def kind_of_text(text: str) -> str:
+    """Return a text without its numbers.
+
+    Examples
+    --------
+    >>> kind_of_text("08B-1 from -4.5e3 h to 33 320 h")
+    '08B-1 from # h to # h'
+    """
+    return _NUMBER.sub("#", text)
+
+
+def with_ranges(texts: Sequence[str]) -> str:
+    """Return texts of one kind as one, with the range of each number that is not the same in all.
+
+    Examples
+    --------
+    >>> with_ranges(["error 0.12 exceeds 0.05", "error 0.083 exceeds 0.05", "error 0.1 exceeds 0.05"])
+    'error 0.083 to 0.12 exceeds 0.05'
+    """
+    columns = zip(*(_NUMBER.findall(text) for text in texts), strict=True)
+    ranges = (sorted(column, key=lambda number: float(number.replace(" ", ""))) for column in columns)
+    shown = iter([" to ".join(dict.fromkeys((each[0], each[-1]))) for each in ranges])
+    return _NUMBER.sub(lambda _: next(shown), texts[0])

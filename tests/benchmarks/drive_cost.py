@@ -16,7 +16,7 @@ from pathlib import Path
 
 import tomlkit
 
-from wearsim.study.whole_drive.keys import load_drive
+from wearsim.drive.load_case import load_drive
 
 ROOT = Path(__file__).parents[2]
 DRIVES = ROOT / "cases" / "drives"

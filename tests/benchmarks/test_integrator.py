@@ -9,9 +9,9 @@ import math
 import numpy as np
 import pytest
 
-from wearsim.case.load_case import load_case
 from wearsim.contact.engagement import ContactKind
 from wearsim.contact.stop_limits import depth_limit
+from wearsim.drive.load_case import load_case
 from wearsim.kernels.controlled_steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.kernels.hertz_wear import DEPTH_REACHED
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
 from wearsim.input.document import CaseText
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.model import drive_life
-from wearsim.study.whole_drive.report_page import SheetHead, save_sheet
+from wearsim.report.drive.report_page import SheetHead, save_sheet
 
 pytestmark = [
     pytest.mark.slow,

@@ -5,9 +5,9 @@ import subprocess
 
 import pytest
 
-from wearsim.study.whole_drive.drive_text import drive_text
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.model import drive_life
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
+from wearsim.report.drive.drive_text import drive_text
 
 from .ui_server import COMMAND, eventually, field, opened, settled, shown_hours, source
 

@@ -11,7 +11,7 @@ import time
 import pytest
 
 import wearsim
-from wearsim.report.answer import hours
+from wearsim.result.lives import hours
 
 from .conftest import HOSTILE
 from .ui_server import COMMAND, eventually, field, opened, settled, shown_hours, source

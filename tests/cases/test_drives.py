@@ -7,10 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_result import DriveLife
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
+from wearsim.report.drive.drive_text import drive_text
 from wearsim.result import Life
-from wearsim.study.whole_drive.drive_text import drive_text
-from wearsim.study.whole_drive.keys import DriveCase, load_drive
-from wearsim.study.whole_drive.model import DriveLife, drive_life
 
 PATHS = {path.stem: path for path in sorted((Path(__file__).parents[2] / "cases" / "drives").glob("*.toml"))}
 

@@ -15,7 +15,7 @@ import shapely
 from scipy.spatial import cKDTree
 
 import wearsim
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 from wearsim.geometry.outline import Outline, along_ways
 from wearsim.report.worn_flank import wheel_shapes

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.geometry.outline import Outline
 from wearsim.report.worn_flank import wheel_shapes
 

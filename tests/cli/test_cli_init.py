@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from wearsim.chain.joint_pressure import joint_application_factor
 from wearsim.chain.power_rating import application_factor
 from wearsim.cli.main import wearsim_command
-from wearsim.study.whole_drive.keys import load_drive
+from wearsim.drive.load_case import load_drive
 
 STRAND = Path(__file__).with_name("strand_start.toml")
 EXAMPLE = {

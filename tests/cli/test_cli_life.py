@@ -7,7 +7,7 @@ from importlib.resources import files
 import jsonschema
 import pytest
 
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.simulation import simulate
 
 KEYS = (

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.input.document import read_document
 from wearsim.runner.scatter import plain_document
 

@@ -38,7 +38,7 @@ EXTRAS = ("build123d", "jinja2", "markupsafe", "nicegui", "plotly", "pyarrow", "
 )
 def test_only_what_needs_an_extra_asks_for_it(cli, drive, tmp_path, monkeypatch, arguments):
     monkeypatch.chdir(tmp_path)
-    for name in ("wearsim.report.html.page_writer", "wearsim.study.whole_drive.report_page"):
+    for name in ("wearsim.report.html.page_writer", "wearsim.report.drive.report_page"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     for name in EXTRAS:
         monkeypatch.setitem(sys.modules, name, None)

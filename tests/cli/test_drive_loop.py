@@ -7,10 +7,10 @@ import tomllib
 import pytest
 
 import wearsim
+from wearsim.drive import life
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
 from wearsim.errors import ConvergenceError
-from wearsim.study.whole_drive import model
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.model import drive_life
 
 
 def checked(cli, tmp_path, text):
@@ -356,14 +356,14 @@ def test_cassettes_are_checked(cli, tmp_path, cassette):
 @pytest.fixture
 def idler_fails(monkeypatch, tmp_path, loop):
     """A drive whose idler is not found; its path."""
-    run = model.simulate
+    run = life.simulate
 
     def simulate(case, progress):
         if case.drive.gaps == 13:
             raise ConvergenceError("the rollers are not found: use more nodes")
         return run(case, progress)
 
-    monkeypatch.setattr(model, "simulate", simulate)
+    monkeypatch.setattr(life, "simulate", simulate)
     path = tmp_path / "drive.toml"
     path.write_text(loop.replace("[run]\n", "[run]\nhorizon_hours = 20\n"))
     return path

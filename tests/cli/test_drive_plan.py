@@ -7,12 +7,12 @@ from types import SimpleNamespace
 
 import pytest
 
+from wearsim.drive.load_case import load_drive
+from wearsim.drive.maintenance import part_lives
+from wearsim.drive.plan import Prices, cheapest, replacement_rules
 from wearsim.quantities import grouped
+from wearsim.report.drive.plan_words import ordinal, rule_text
 from wearsim.result import Life, LowerBound
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.maintenance import part_lives
-from wearsim.study.whole_drive.plan import Prices, cheapest, replacement_rules
-from wearsim.study.whole_drive.plan_words import ordinal, rule_text
 
 PRICES_OF_PARTS = """
 [maintenance]

@@ -8,16 +8,16 @@ from html import unescape
 
 import pytest
 
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
+from wearsim.drive.maintenance import drive_plan
 from wearsim.quantities import grouped
-from wearsim.report.answer import hours
-from wearsim.report.service import service_measures
+from wearsim.report.drive.layout import layout_json
+from wearsim.report.drive.plan_sheet import plan_json
+from wearsim.report.drive.report_page import SheetHead, save_sheet, sheet_html
 from wearsim.result import Life
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.layout import layout_json
-from wearsim.study.whole_drive.maintenance import drive_plan
-from wearsim.study.whole_drive.model import drive_life
-from wearsim.study.whole_drive.plan_sheet import plan_json
-from wearsim.study.whole_drive.report_page import SheetHead, save_sheet, sheet_html
+from wearsim.result.lives import hours
+from wearsim.result.service import service_measures
 
 LOOP = """\
 format_version = 1

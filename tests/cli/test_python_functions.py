@@ -109,7 +109,7 @@ def test_loads(answer, wrap, two):
     assert list(found.teeth["force_N"]) == [row["force_N"] for row in expected["teeth"]]
     assert is_shown(found, "teeth")
     assert is_drawn(found.plot())
-    both, expected = wearsim.loads(wearsim.load_drive(two)), answer("loads", two)
+    both, expected = wearsim.loads(wearsim.load_case(two)), answer("loads", two)
     assert both.summary() == expected
     assert list(both.spans["tension_N"]) == [span["tension_N"] for span in expected["layout"]["spans"]]
     assert set(both.teeth["sprocket"]) == {"driver", "roll"}
@@ -124,7 +124,7 @@ def test_simulate(answer, two, drive):
     assert life.summary() == answer("life", path)
     assert len(repr(life)) < 300 and "Life" in life._repr_html_()
     assert wearsim.simulate(path).summary() == life.summary()
-    found = wearsim.simulate(wearsim.load_drive(two))
+    found = wearsim.simulate(wearsim.load_case(two))
     expected = answer("life", two)
     assert found.life.hours == expected["life_hours"]
     assert found.chain.hours == expected["chain_life_hours"]
@@ -136,7 +136,7 @@ def test_simulate(answer, two, drive):
 def test_one_line_is_short_however_long_the_title(drive, two):
     title = "A drive of " + "many words " * 60
     case = wearsim.load_case(drive()).with_({"title": title})
-    whole = wearsim.load_drive(two).with_({"title": title})
+    whole = wearsim.load_case(two).with_({"title": title})
     found = (
         case,
         whole,
@@ -203,9 +203,9 @@ def test_a_whole_drive_is_swept(answer, tmp_path, two):
         'format_version = 1\ncase = "two.toml"\n[grid]\n"sprocket.2.teeth" = [20, 25]\n'
     )
     expected = answer("sweep", tmp_path / "study.toml")
-    found = wearsim.sweep(wearsim.load_drive(two), {"sprocket.2.teeth": [20, 25]})
+    found = wearsim.sweep(wearsim.load_case(two), {"sprocket.2.teeth": [20, 25]})
     assert list(found.cases["roll_life_hours"]) == [row["roll_life_hours"] for row in expected]
-    alone = wearsim.simulate(wearsim.load_drive(two).with_({"sprocket.2.teeth": 25}))
+    alone = wearsim.simulate(wearsim.load_case(two).with_({"sprocket.2.teeth": 25}))
     assert found.cases["life_hours"][1] == alone.life.hours
 
 
@@ -466,7 +466,7 @@ def test_export(cli, tmp_path, wrap, two, drive):
     with pytest.raises(wearsim.WearsimError, match=r"must end in one of \.dxf, \.svg"):
         wearsim.export(case, tmp_path / "wheel.png")
     assert cli("export", two, "--sprocket", "roll", "--out", tmp_path / "roll.svg").code == 0
-    wearsim.export(wearsim.load_drive(two), tmp_path / "own.svg", sprocket="roll")
+    wearsim.export(wearsim.load_case(two), tmp_path / "own.svg", sprocket="roll")
     assert (tmp_path / "own.svg").read_bytes() == (tmp_path / "roll.svg").read_bytes()
     with pytest.raises(wearsim.CaseError, match=r"one wheel .* give sprocket='driver' or sprocket='roll'"):
         wearsim.export(two)
@@ -478,7 +478,7 @@ def test_export(cli, tmp_path, wrap, two, drive):
 
 
 def test_what_is_asked_of_one_sprocket_of_a_drive_says_so(two):
-    one = wearsim.load_drive(two).sprockets[0].case
+    one = wearsim.load_case(two).sprockets[0].case
     assert wearsim.loads(one).teeth["force_N"].max() > 0.0
     with pytest.raises(wearsim.CaseError, match="this is one sprocket of a drive, give the drive"):
         wearsim.uncertainty(one)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.study.whole_drive.keys import load_drive
+from wearsim.drive.load_case import load_drive
 
 NEED = ("--power", "3 kW", "--rpm", 120, "--ratio", 2.7, "--hours", 15000)
 

@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 
 import wearsim
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.model import drive_life
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
 
 POINTS = 'name = "roll"\nteeth = 20\nprofile = "points"\npoints_file = "gap.csv"\n'
 

@@ -7,7 +7,7 @@ import pytest
 
 import wearsim
 from wearsim.cad.step import step_bytes
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.report.worn_flank import wheel_shapes
 
 pytestmark = pytest.mark.slow

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import wearsim
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 
 MINIMAL = """\
 format_version = 1

@@ -2,7 +2,7 @@
 
 import pytest
 
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError
 
 MINIMAL = """\

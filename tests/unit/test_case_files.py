@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError
 
 PRESCRIBED = """\

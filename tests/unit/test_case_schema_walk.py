@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 import wearsim
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError
 from wearsim.input.schema import CaseTables
 from wearsim.input.schema.lubrication_tables import LubricantOption

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.case.load_case import load_case
 from wearsim.cli.init import new_case
+from wearsim.drive.load_case import load_case
 from wearsim.input.document import CaseText
 from wearsim.page.answers import edited_case
 from wearsim.page.case_file import CaseFile, new_file

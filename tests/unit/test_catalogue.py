@@ -5,7 +5,6 @@ import re
 
 import pytest
 
-from wearsim.case.load_case import load_case
 from wearsim.catalogue.catalogues import (
     KG_PER_M,
     catalogue_rows,
@@ -16,6 +15,7 @@ from wearsim.catalogue.catalogues import (
     nearest_chain,
     wear_conditions,
 )
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError
 
 # p, d1, b1 [mm] and tensile strength [kN] typed from ISO 606 (ANSI B29.1 for the A series).

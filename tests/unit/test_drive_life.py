@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from wearsim.drive import life
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
+from wearsim.drive.said_of_sprockets import said_of_sprockets
+from wearsim.drive.wheels import DriveWheel
 from wearsim.errors import ConvergenceError
+from wearsim.report.drive.sheet import jumping_text
 from wearsim.result import LimitState
-from wearsim.study.whole_drive import model
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.model import drive_life
-from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
-from wearsim.study.whole_drive.sheet import jumping_text
-from wearsim.study.whole_drive.wheels import DriveWheel
 
 RING = {"name": "ring", "teeth": 38, "profile": "iso606", "nodes": 31}
 COGS = [{"teeth": teeth, "share_of_time": 0.25} for teeth in (13, 15, 17, 19)]
@@ -87,14 +87,14 @@ def test_jumping_is_told_of_the_sprocket_that_is_nearest_to_it(needed, text):
 
 def failing(monkeypatch, *gaps):
     """Let the runs of the sprockets of so many teeth fail."""
-    run = model.simulate
+    run = life.simulate
 
     def simulate(case, progress):
         if case.drive.gaps in gaps:
             raise ConvergenceError(f"{case.drive.gaps} teeth fail")
         return run(case, progress)
 
-    monkeypatch.setattr(model, "simulate", simulate)
+    monkeypatch.setattr(life, "simulate", simulate)
 
 
 SHORT = {**DRIVE, "run": {"horizon_hours": 50.0, "life_tolerance": 0.1}}
@@ -136,7 +136,7 @@ def test_a_mistake_of_ours_stops_the_others(monkeypatch, drive):
             time.sleep(1e-3)
         ran_on.append(case.drive.gaps)
 
-    monkeypatch.setattr(model, "simulate", simulate)
+    monkeypatch.setattr(life, "simulate", simulate)
     with pytest.raises(ZeroDivisionError):
         drive_life(drive, threads=5)
     assert not ran_on

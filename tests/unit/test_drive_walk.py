@@ -12,12 +12,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case, load_drive
 from wearsim.errors import CaseError
 from wearsim.input.keys import schema_fields
 from wearsim.input.schema import CaseTablesOrDrive
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.layout import layout_json
+from wearsim.report.drive.layout import layout_json
 
 OF_ONE = runpy.run_path(str(Path(__file__).with_name("test_case_schema_walk.py")))
 BASES, CHANGES, OWN_CHAIN, WRAP, draw, edited = (

@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from wearsim.case.load_case import load_case
 from wearsim.catalogue.catalogues import regimes
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError
 from wearsim.input.duty_log import DutyLog, LogBin, log_bins, merged
 

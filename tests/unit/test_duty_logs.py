@@ -4,10 +4,9 @@ import itertools
 
 import pytest
 
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case, load_drive
 from wearsim.errors import CaseError
 from wearsim.simulation import simulate
-from wearsim.study.whole_drive.keys import load_drive
 
 STRAND = {
     "format_version": 1,

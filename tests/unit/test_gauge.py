@@ -10,7 +10,7 @@ import shapely
 from shapely import affinity
 
 from wearsim.cad.gauge import gauge
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.geometry.wheel_outline import worn_gap, worn_space
 from wearsim.mechanisms.strand.drive import StrandDrive
 from wearsim.report.worn_flank import wheel_shapes

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.geometry.blank import gap_space, tooth_space
 from wearsim.geometry.hub import NO_HUB, Hub, circle
 

@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from wearsim.drive.load_case import load_drive
 from wearsim.geometry.label_places import FreePlaces, label_box
 from wearsim.geometry.scene import Label
 from wearsim.mechanisms.wrap.loop_scene import chain_path, loop_scene
 from wearsim.quantities import grouped
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.layout import drive_forces
+from wearsim.report.drive.layout import drive_forces
 
 DRIVES = sorted((Path(__file__).parents[2] / "cases" / "drives").glob("*.toml"))
 

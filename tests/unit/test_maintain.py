@@ -13,8 +13,8 @@ from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import CaseError
 from wearsim.input.schema import MaintenanceTable
 from wearsim.report.answer import answer
-from wearsim.report.service import life_json
 from wearsim.result import Life, LowerBound
+from wearsim.result.service import life_json
 from wearsim.simulation.wear_task import wear_law
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy, cost_per_1000_hours, maintain
 from wearsim.study.maintain.reversed_sprocket import reversed_life

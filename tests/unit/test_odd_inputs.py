@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, GeometryError
 from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 from wearsim.geometry.measured.points import flank_from_points

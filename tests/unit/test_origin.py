@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from wearsim.case.input_origins import input_rows
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 
 CASES = sorted((Path(__file__).parents[2] / "cases").glob("*.toml"))
 CASE = {

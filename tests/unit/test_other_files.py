@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.case.load_case import load_case
 from wearsim.command.registry import CALCULATIONS, tables_of
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError
 from wearsim.input.calculation_file import load_calculation
 from wearsim.input.other_files import NEEDED

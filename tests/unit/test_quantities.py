@@ -13,10 +13,10 @@ from pydantic import BaseModel
 
 import wearsim
 from wearsim.cad.wheel_drawing import wheel_points
-from wearsim.case.load_case import load_case
 from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.cli.main import wearsim_command
 from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
+from wearsim.drive.load_case import load_case
 from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.faults import Faults
 from wearsim.input.log_file import COLUMNS as LOG_COLUMNS

@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 import wearsim
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_case
 from wearsim.errors import LimitNotReachedError, OutputError
 from wearsim.report.flank_view import profile_table
 from wearsim.result import Life, LowerBound, WearResult

@@ -9,6 +9,9 @@ pytest.importorskip("nicegui", reason="nicegui is not installed")
 from nicegui import Client, ui
 from nicegui.page import page
 
+from wearsim.drive import life
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
 from wearsim.input.document import CaseText
 from wearsim.page.case_file import new_file
 from wearsim.page.drive_answer import drive_headline, taken_inputs
@@ -17,9 +20,6 @@ from wearsim.page.edited_input import EditedInput, StaleError
 from wearsim.page.fields import form_fields, value_at
 from wearsim.page.form_panel import FormPanel
 from wearsim.page.toml_source import parsed_tables, shown_values, with_value
-from wearsim.study.whole_drive import model
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.model import drive_life
 
 SHARES = "duty.1.power_share"
 DRIVE = {
@@ -81,7 +81,7 @@ def test_ratings_stand_beside_the_hours(power, words):
 
 
 def test_runs_that_nobody_waits_for_do_not_begin(monkeypatch):
-    monkeypatch.setattr(model, "simulate", lambda case, progress: pytest.fail("began"))
+    monkeypatch.setattr(life, "simulate", lambda case, progress: pytest.fail("began"))
     path = Path("drive.toml")
     edited = EditedInput(CaseText(path, ""), new_file(path), lambda: True, lambda part: pytest.fail("told"))
     drive = load_drive({**DRIVE, "load": {"power_kW": 4, "speed_rpm": 1000}})

@@ -9,8 +9,9 @@ pytest.importorskip("nicegui", reason="nicegui is not installed")
 from nicegui import Client, ui
 from nicegui.page import page
 
-from wearsim.case.load_case import load_case
 from wearsim.chain.selection import RatingFinding
+from wearsim.drive.drive_start import start_text
+from wearsim.drive.load_case import load_case, load_drive
 from wearsim.input.document import CaseText, is_whole_drive
 from wearsim.page.answers import edited_case
 from wearsim.page.case_file import example, example_titles
@@ -20,8 +21,6 @@ from wearsim.page.rating_lights import light, rating_list
 from wearsim.page.toml_source import parsed_tables, with_value
 from wearsim.page.what_if import knobs
 from wearsim.result import Life, LowerBound
-from wearsim.study.whole_drive.drive_start import start_text
-from wearsim.study.whole_drive.keys import load_drive
 
 
 def test_undo_goes_back_field_by_field_and_redo_forth():

@@ -4,8 +4,8 @@ import tomllib
 
 import pytest
 
-from wearsim.case.load_case import load_case
 from wearsim.cli.init import new_case
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError
 from wearsim.input.document import CaseText
 from wearsim.page.toml_source import parsed_tables, shown_values, with_table, with_value, without_table

@@ -92,7 +92,7 @@ def test_a_horizon_that_was_raised_stays(case):
 
 
 def test_whole_drives_and_gears_change_too():
-    drive = wearsim.load_drive(DRIVE)
+    drive = wearsim.load_case(DRIVE)
     changed = drive.with_(
         {"sprocket.2.teeth": 40, "load.torque_N_m": "20 N m", "drive.centre_distance_mm": 400}
     )

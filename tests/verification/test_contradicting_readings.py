@@ -252,7 +252,7 @@ def asked(texts):
 
 
 def test_a_rate_outside_the_band_is_warned_of_on_every_way_in():
-    drive = wearsim.load_drive(TAKE_OFF)
+    drive = wearsim.load_case(TAKE_OFF)
     single = wearsim.remaining(drive, 900, elongation_percent=2.9, error=0.1).found
     several = wearsim.remaining(drive, readings=[ELONGATED]).found
     assert single.factor > 3.0

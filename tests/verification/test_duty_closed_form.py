@@ -12,8 +12,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 import wearsim
-from wearsim.case.load_case import load_case
 from wearsim.contact.resting_engagement import ChainWear
+from wearsim.drive.load_case import load_case
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SPEED
 
 STRAND = {

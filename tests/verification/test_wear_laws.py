@@ -150,9 +150,9 @@ def test_a_whole_drive_has_one_clock() -> None:
     case = Path(__file__).parents[2] / "cases" / "drives" / "packaging-conveyor.toml"
     rough = ["run.life_tolerance=0.1", "stop.critical_depth_mm=0.02"]
     rough += ["mechanism.phases=2", "sprocket.1.nodes=61", "sprocket.2.nodes=61"]
-    plain = wearsim.simulate(wearsim.load_drive(case, rough))
+    plain = wearsim.simulate(wearsim.load_case(case, rough))
     slow = wearsim.simulate(
-        wearsim.load_drive(case, [*rough, "wear.cycles_exponent=0.8", "wear.reference_hours=1000"])
+        wearsim.load_case(case, [*rough, "wear.cycles_exponent=0.8", "wear.reference_hours=1000"])
     )
 
     def later(hours: float) -> float:

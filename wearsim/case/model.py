@@ -20,7 +20,7 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Scene, Stroke
 from wearsim.geometry.wheel_outline import WheelShape
 from wearsim.input.document import GivenInput, read_document
-from wearsim.input.mechanism_registry import mechanism_of
+from wearsim.input.mechanism_registry import read_case
 from wearsim.notebook import html_rows, one_line
 
 
@@ -408,7 +408,7 @@ class Case:
             text = "must be changed as a whole: this is one sprocket of a drive, take with_ of the drive"
             raise CaseError([Fault(text, "", self.name)])
         document = read_document(changed(self.given, changes), ())
-        found: Case = mechanism_of(document.data).load("read")(document)
+        found: Case = read_case(document)
         return found
 
     def with_horizon(self, hours: float) -> "Case":

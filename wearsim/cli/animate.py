@@ -76,8 +76,8 @@ def animate(
             f"--seconds: must leave every frame {_SHORTEST_S:g} s at least, {frames} frames "
             f"{_SHORTEST_S * frames:g} s (got {seconds:g}): give more seconds or fewer --frames"
         )
+    from wearsim.command.whole_drives import is_drive, load_one
     from wearsim.report.animation import animation
-    from wearsim.study.whole_drive.command import is_drive, load_one
 
     if sprocket is not None or is_drive(source):
         result = worn(load_one(source, settings, sprocket))

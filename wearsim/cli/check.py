@@ -17,7 +17,7 @@ from wearsim.command.options import common_options, load_cases, overrides
 @common_options
 def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> None:
     """Check each CASE (.toml): keys, files, feasible geometry, ratings; say what it assumes."""
-    from wearsim.study.whole_drive.command import are_drives, checked
+    from wearsim.command.whole_drives import are_drives, checked
 
     if are_drives(cases):
         checked(cases, settings, as_json)

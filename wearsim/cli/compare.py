@@ -37,7 +37,7 @@ def compare(
     Whole drives, [[sprocket]] twice, are compared part by part: lives, what is replaced first,
     ratings, cost.
     """
-    from wearsim.study.whole_drive.command import are_drives, compared
+    from wearsim.command.whole_drives import are_drives, compared
 
     if are_drives(sources):
         if xlsx is not None:
@@ -58,7 +58,7 @@ def compare(
         save_comparison(results, out, force)
         warn(f"written to {out}")
     if as_json:
-        from wearsim.report.service import life_json
+        from wearsim.result.service import life_json
 
         for result in results:
             click.echo(json.dumps(life_json(result), ensure_ascii=False, allow_nan=False))

@@ -6,9 +6,9 @@ from typing import Any
 import click
 
 from wearsim.command.complete import complete_chain
+from wearsim.drive.drive_start import start_text
+from wearsim.drive.known_drive import KNOWN, Known, Values, read_known
 from wearsim.errors import CaseError
-from wearsim.study.whole_drive.drive_start import start_text
-from wearsim.study.whole_drive.known_drive import KNOWN, Known, Values, read_known
 
 
 def drive_options(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -96,7 +96,7 @@ def export(
 
 def _takes_all(source: Path, out: Path) -> bool:
     """Tell whether a place is a folder for all wheels of a whole drive, and no file by its ending."""
-    from wearsim.study.whole_drive.command import is_drive
+    from wearsim.command.whole_drives import is_drive
 
     no_file = str(out) != "-" and out.suffix.lower() not in (*(f".{name}" for name in _FORMATS), ".stp")
     return no_file and not source.is_dir() and is_drive(source)
@@ -105,7 +105,7 @@ def _takes_all(source: Path, out: Path) -> bool:
 def _export_all(
     source: Path, settings: tuple[str, ...], out: Path, form: str, state: str, force: bool
 ) -> None:
-    from wearsim.study.whole_drive.command import export_wheels
+    from wearsim.command.whole_drives import export_wheels
 
     _check_step(form)
     _check_states(form, _STATES[state])
@@ -143,7 +143,7 @@ def _loaded(
 ) -> "tuple[Case, WearResult | None]":
     """Return a case, and its run where the folder of one is given."""
     if not source.is_dir() or sprocket is not None:
-        from wearsim.study.whole_drive.command import load_one
+        from wearsim.command.whole_drives import load_one
 
         return load_one(source, settings, sprocket, or_else=", or --out FOLDER alone for all wheels"), None
     check_settings([source], settings)

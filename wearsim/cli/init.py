@@ -9,9 +9,9 @@ import click
 
 from wearsim.cli.drive_questions import ask_for_drive, drive_options
 from wearsim.command.options import common_options
+from wearsim.drive.drive_start import start_text
+from wearsim.drive.known_drive import KNOWN
 from wearsim.errors import CaseError, Fault
-from wearsim.study.whole_drive.drive_start import start_text
-from wearsim.study.whole_drive.known_drive import KNOWN
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -98,9 +98,9 @@ def new_case(chain: str, teeth: int, kind: str) -> str:
 
 def _seed(chain: str, teeth: int, kind: str) -> "Case":
     """A case that takes every default."""
-    from wearsim.case.load_case import load_case
     from wearsim.catalogue.catalogues import chain_name, chains
     from wearsim.chain.standard_teeth import standard_form
+    from wearsim.drive.load_case import load_single
 
     known = chains().get(chain_name(chain) or "")
     form = standard_form(known) if kind == "wrap" and known else "evolute"
@@ -113,7 +113,7 @@ def _seed(chain: str, teeth: int, kind: str) -> "Case":
         "wear": {"condition": "hardened, oiled"},
     }
     try:
-        return load_case(seed)
+        return load_single(seed)
     except CaseError as error:
         options = {"chain": "--chain"}
         raise CaseError(

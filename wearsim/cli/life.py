@@ -97,7 +97,7 @@ def life(
             raise click.UsageError(
                 "a drive with [[sprocket]] takes neither --parquet, --solve-for nor --verify-grid"
             )
-        from wearsim.study.whole_drive.command import live
+        from wearsim.command.whole_drives import live
 
         check_workbook(out, xlsx, force)
         folders = _folders(cases, out, force)
@@ -140,7 +140,7 @@ def life(
 
 
 def _are_drives(cases: tuple[Path, ...]) -> bool:
-    from wearsim.study.whole_drive.command import are_drives
+    from wearsim.command.whole_drives import are_drives
 
     return are_drives(cases)
 
@@ -209,7 +209,7 @@ def _verified(case: "Case") -> "GridStudy":
 
 def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: bool, explain: bool) -> None:
     if as_json:
-        from wearsim.report.service import life_json
+        from wearsim.result.service import life_json
 
         content = life_json(result)
         if grid is not None:

@@ -48,9 +48,9 @@ def loads(
     """
     if worst and phase is not None:
         raise click.UsageError("--worst looks at all phases: give --phase or --worst, not both")
+    from wearsim.command.whole_drives import is_drive, load_one, loaded_teeth
     from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
     from wearsim.report.loads_table import loads_json, loads_table
-    from wearsim.study.whole_drive.command import is_drive, load_one, loaded_teeth
 
     part = None if worst else 1.0 if phase is None else phase
     if sprocket is None and is_drive(case):

@@ -25,8 +25,8 @@ from wearsim.command.single_file import check_place
 def profile(case: Path, out: Path, force: bool, sprocket: str | None, settings: tuple[str, ...]) -> None:
     """Write the working flank of CASE: points, curvature, pressure angle and evolute."""
     check_place(out, case, force)
+    from wearsim.command.whole_drives import load_one
     from wearsim.report.flank_view import profile_table
-    from wearsim.study.whole_drive.command import load_one
 
     text = profile_table(load_one(case, settings, sprocket)).to_csv(index=False)
     if str(out) == "-":

@@ -51,9 +51,9 @@ def report(
 
     A case with [[sprocket]] twice is a whole drive: one page, a calculation sheet to print on A4.
     """
+    from wearsim.command.whole_drives import are_drives, report_sheet
     from wearsim.extras import check_installed
     from wearsim.files import check_folder
-    from wearsim.study.whole_drive.command import are_drives, report_sheet
 
     if are_drives(sources):
         if len(sources) > 1:

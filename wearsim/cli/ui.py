@@ -61,9 +61,9 @@ class _Opened:
         self._path, self._settings = path, settings
 
     def __call__(self) -> "tuple[CaseFile, str]":
+        from wearsim.drive.drive_start import start_text
         from wearsim.input.document import STDIN, text_of
         from wearsim.page.case_file import NEW, example, new_file, read_file
-        from wearsim.study.whole_drive.drive_start import start_text
 
         if self._path is None:
             file, text = new_file(NEW), start_text({})

@@ -140,12 +140,12 @@ def error_json(case: str, error: WearsimError) -> str:
 
 def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> "list[Case]":
     """Load all cases before the first one runs; report all faults of all of them."""
-    from wearsim.case.load_case import load_case
+    from wearsim.drive.load_case import load_single
 
     cases, failed = [], False
     for path in paths:
         try:
-            case = load_case(path, settings)
+            case = load_single(path, settings)
             case.drive.check(case)
             cases.append(case)
         except (CaseError, GeometryError) as error:

@@ -5,9 +5,7 @@ from typing import Any, Literal, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from wearsim.input.document import is_whole_drive
 from wearsim.input.mechanism_registry import mechanism_of
-from wearsim.input.schema import DriveTables
 from wearsim.input.schema.table import Table
 
 
@@ -21,8 +19,6 @@ def schema_of(tables: Mapping[str, Any]) -> type[Table]:
     >>> schema_of({"sprocket": [{"teeth": 21}, {"teeth": 57}]}).__name__
     'DriveTables'
     """
-    if is_whole_drive(tables):
-        return DriveTables
     # Models of tables take time to build: only those of one mechanism are.
     found: type[Table] = mechanism_of(tables).load("tables")
     return found

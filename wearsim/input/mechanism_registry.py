@@ -1,12 +1,14 @@
 """Which mechanism a case is about, and which keys belong to it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import Any
 
 from wearsim.input.case_record import ChainRecord
+from wearsim.input.document import Document
 from wearsim.input.schema import CaseTables
+from wearsim.kernels.compiled import expect
 
 WRAP_PROFILES = ("iso606", "ansi_b29", "gost591", "dxf")
 """Tooth forms for a chain that wraps the sprocket."""
@@ -103,9 +105,22 @@ MECHANISMS = {
 }
 """The one list of mechanisms by their kinds; a program adds one of its own by ``MECHANISMS[kind] = ...``."""
 
+WHOLE_DRIVE = replace(
+    MECHANISMS["wrap"], tables="wearsim.input.schema:DriveTables", read="wearsim.drive.read:read_drive"
+)
+"""A chain and all of its sprockets, each of which it wraps."""
+
 
 def mechanism_of(data: Mapping[str, Any]) -> MechanismEntry:
-    """Return the mechanism that tables are about, whether or not they are right."""
+    """Return the mechanism that tables are about, whether or not they are right.
+
+    Examples
+    --------
+    >>> mechanism_of({"sprocket": [{"teeth": 21}, {"teeth": 57}]}) is WHOLE_DRIVE
+    True
+    """
+    if isinstance(data.get("sprocket"), list):
+        return WHOLE_DRIVE
     if "gear" in data:
         return MECHANISMS["gear_pair"]
     mechanism, sprocket = data.get("mechanism"), data.get("sprocket")
@@ -113,6 +128,14 @@ def mechanism_of(data: Mapping[str, Any]) -> MechanismEntry:
     profile = sprocket.get("profile") if isinstance(sprocket, dict) else None
     default = "wrap" if profile in WRAP_PROFILES else "strand"
     return MECHANISMS[kind if isinstance(kind, str) and kind in MECHANISMS else default]
+
+
+def read_case(document: Document) -> Any:
+    """Return the complete case of a document; only the models of its mechanism are imported."""
+    mechanism = mechanism_of(document.data)
+    read = mechanism.load("read")
+    expect(mechanism.kernels)
+    return read(document)
 
 
 _BELONGS_TO = {

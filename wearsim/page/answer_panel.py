@@ -24,7 +24,6 @@ from wearsim.report.answer import (
     ending,
     findings,
     headline,
-    hours,
     overload_text,
     result_events,
 )
@@ -32,6 +31,7 @@ from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
 from wearsim.report.text_lines import stated_and_defaults
 from wearsim.result import Life, WearResult
+from wearsim.result.lives import hours
 
 
 class AnswerPanel:

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
+from wearsim.drive.load_case import load_single
 from wearsim.errors import CaseError, Fault, WearsimError
 from wearsim.geometry.scene import Scene
 from wearsim.input.document import CaseText
@@ -41,7 +41,7 @@ def error_faults(error: WearsimError) -> tuple[Fault, ...]:
 
 def edited_case(source: CaseText, file: CaseFile) -> Case:
     """Return the case of an input whose title tells what is not yet in its file."""
-    case = load_case(source)
+    case = load_single(source)
     return replace(case, title=edited_title(source, file) or case.title)
 
 
@@ -59,7 +59,7 @@ def estimate(source: CaseText, case: Case, check: Callable[[float], None]) -> We
     tolerance = max(ROUGH_TOLERANCE, case.run.life_tolerance)
     try:
         return simulate(
-            load_case(source, [*rough, f"run.life_tolerance={tolerance}", "run.method=advance"]), check
+            load_single(source, [*rough, f"run.life_tolerance={tolerance}", "run.method=advance"]), check
         )
     except WearsimError:
         return None

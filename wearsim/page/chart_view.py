@@ -107,7 +107,7 @@ def style(palettes: tuple[Palette, Palette]) -> str:
         line
         for package, name in (
             ("wearsim.report.html", "style.css"),
-            ("wearsim.study.whole_drive", "templates/drive_sheet.css"),
+            ("wearsim.report.drive", "templates/drive_sheet.css"),
         )
         for line in resources.files(package).joinpath(name).read_text("utf-8").splitlines()
         if line.startswith((".sketch", ".notes", ".lives"))

@@ -7,8 +7,8 @@ from nicegui import ui
 from wearsim.input.document import leaves
 from wearsim.page.text_elements import heading, row_list
 from wearsim.page.toml_source import parsed_tables
-from wearsim.report.answer import hours
 from wearsim.result import Life, LowerBound
+from wearsim.result.lives import hours
 
 Lives = Mapping[str, Life | LowerBound]
 

@@ -7,23 +7,25 @@ from typing import Any
 from markupsafe import Markup
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_result import DriveLife
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
+from wearsim.drive.maintenance import drive_plan
 from wearsim.errors import WearsimError
 from wearsim.page.answers import ROUGH_TOLERANCE
 from wearsim.page.chart_colours import Palette
 from wearsim.page.drive_panel import DrivePanel
 from wearsim.page.edited_input import EditedInput, edited_title
 from wearsim.page.header import Header
-from wearsim.report.answer import hours
+from wearsim.report.drive.layout_sketch import layout_sketch
+from wearsim.report.drive.lives_bars import lives_bars
+from wearsim.report.drive.page_tables import wheel_of
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.tooth_chart import worn_out_chart
 from wearsim.report.text_lines import listed
 from wearsim.result import Life, LowerBound, WearResult
-from wearsim.study.whole_drive.keys import DriveCase, load_drive
-from wearsim.study.whole_drive.layout_sketch import layout_sketch
-from wearsim.study.whole_drive.lives_bars import lives_bars
-from wearsim.study.whole_drive.maintenance import drive_plan
-from wearsim.study.whole_drive.model import DriveLife, drive_life
-from wearsim.study.whole_drive.page_tables import wheel_of
+from wearsim.result.lives import hours
 
 _ROUGH_PHASES, _ROUGH_NODES = 2, 101
 """Most of what a first estimate takes of a drive."""

@@ -5,17 +5,14 @@ from collections.abc import Mapping
 from markupsafe import Markup
 from nicegui import ui
 
+from wearsim.drive.drive_result import DriveLife
+from wearsim.drive.maintenance import drive_plan
 from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, LinkedDrawing
 from wearsim.page.rating_lights import rating_list
 from wearsim.page.text_elements import assumption_list, heading, row_list, warning_list
-from wearsim.report.answer import hours
-from wearsim.report.html.charts import Chart
-from wearsim.report.text_lines import unbroken
-from wearsim.study.whole_drive.layout_sketch import flank_place
-from wearsim.study.whole_drive.maintenance import drive_plan
-from wearsim.study.whole_drive.model import DriveLife
-from wearsim.study.whole_drive.sheet import (
+from wearsim.report.drive.layout_sketch import flank_place
+from wearsim.report.drive.sheet import (
     band_text,
     first_text,
     part_rows,
@@ -23,6 +20,9 @@ from wearsim.study.whole_drive.sheet import (
     taken_for_granted,
     worn_most_text,
 )
+from wearsim.report.html.charts import Chart
+from wearsim.report.text_lines import unbroken
+from wearsim.result.lives import hours
 
 
 class DrivePanel:

@@ -7,12 +7,12 @@ from typing import Any
 from nicegui import ui
 
 from wearsim.catalogue.catalogues import chains
+from wearsim.drive.drive_start import start_text
+from wearsim.drive.known_drive import KNOWN, Known, read_known
 from wearsim.errors import CaseError, Fault
 from wearsim.page.dialogs import named_dialog
 from wearsim.page.field_words import choice_words
 from wearsim.page.threads import in_thread
-from wearsim.study.whole_drive.drive_start import start_text
-from wearsim.study.whole_drive.known_drive import KNOWN, Known, read_known
 
 _LOOK = "outlined dense stack-label hide-bottom-space"
 

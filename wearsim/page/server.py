@@ -10,7 +10,7 @@ import uvicorn
 from fastapi import FastAPI
 from nicegui import app, ui
 
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_single
 from wearsim.errors import WearsimError
 from wearsim.input.document import CaseText
 from wearsim.page.case_file import CaseFile
@@ -58,6 +58,6 @@ def _warm_up(texts: tuple[str, ...], stopping: threading.Event) -> None:
         if stopping.is_set():
             return
         try:
-            simulate(load_case(CaseText(Path("warm.toml"), text), ["run.life_tolerance=0.1"]))
+            simulate(load_single(CaseText(Path("warm.toml"), text), ["run.life_tolerance=0.1"]))
         except WearsimError:
             continue

@@ -6,6 +6,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.extras import check_installed
 from wearsim.geometry.measured.registration import Freedom
@@ -16,7 +17,6 @@ from wearsim.quantities import grouped
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
 from wearsim.study.calibrate.model import calibrate as fitted
 from wearsim.study.calibrate.sheet import calibration_json, calibration_text, readings_table
-from wearsim.study.whole_drive.keys import DriveCase
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -6,12 +6,12 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
-from wearsim.input.document import GivenInput, is_whole_drive, read_document
-from wearsim.study.whole_drive.keys import DriveCase, load_drive
+from wearsim.input.document import GivenInput
 
 CaseInput = Case | DriveCase | str | PathLike[str] | Mapping[str, Any]
 """A loaded case or drive, the path of its file, or its tables."""
@@ -21,11 +21,7 @@ def loaded(source: CaseInput | GivenInput) -> Case | DriveCase:
     """Return a case, or a whole drive where the input names all of its sprockets."""
     if isinstance(source, Case | DriveCase):
         return source
-    document = read_document(source if isinstance(source, Mapping | GivenInput) else Path(source), ())
-    assert document.given is not None
-    if is_whole_drive(document.data):
-        return load_drive(document.given)
-    return load_case(document.given)
+    return load_case(source if isinstance(source, Mapping | GivenInput) else Path(source))
 
 
 def given_input(source: CaseInput) -> GivenInput:

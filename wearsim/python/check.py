@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
 from wearsim.python.answer import Answer, table_of
 from wearsim.python.case_input import CaseInput, loaded
+from wearsim.report.drive.layout import drive_check_json, layout_text
 from wearsim.report.rating import check_json, notes_text, rating_table
-from wearsim.study.whole_drive.keys import DriveCase
-from wearsim.study.whole_drive.layout import drive_check_json, layout_text
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -12,6 +12,8 @@ from wearsim.cad.wheel_drawing import wheel_points
 from wearsim.cad.wheel_formats import check_solid
 from wearsim.cad.wheel_formats import export as content
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_result import DriveLife
 from wearsim.errors import CaseError, Fault, OutputError, check_ranges
 from wearsim.files import check_free, write_file
 from wearsim.geometry.wheel_outline import State
@@ -21,7 +23,6 @@ from wearsim.report.flank_view import case_of
 from wearsim.report.worn_flank import wheel_shapes
 from wearsim.result import WearResult
 from wearsim.simulation import simulate
-from wearsim.study.whole_drive.keys import DriveCase
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -118,7 +119,7 @@ class ExportResult(Answer):
 
 
 def export(
-    source: CaseInput | WearResult,
+    source: CaseInput | WearResult | DriveLife,
     out: str | PathLike[str] | None = None,
     *,
     state: States | None = None,
@@ -130,7 +131,7 @@ def export(
 
     Parameters
     ----------
-    source : Case, DriveCase, WearResult, path or mapping
+    source : Case, DriveCase, WearResult, DriveLife, path or mapping
         What has the wheel; a worn wheel of a case is worn first.
     out : path, optional
         New file of the wheel: .dxf, .svg, .csv, .step or .stl.
@@ -192,10 +193,10 @@ def export(
     return found
 
 
-def _case(source: CaseInput | WearResult, sprocket: str | None) -> tuple[Case, WearResult | None]:
+def _case(source: CaseInput | WearResult | DriveLife, sprocket: str | None) -> tuple[Case, WearResult | None]:
     if isinstance(source, WearResult):
         return replace(case_of(source), name=source.case, title=source.title), source
-    found = loaded(source)
+    found = loaded(source.drive if isinstance(source, DriveLife) else source)
     if not isinstance(found, DriveCase):
         return found, None
     cases = {one.name: replace(one.case, title=f"{found.title}: {one.name}") for one in found.sprockets}
@@ -203,7 +204,7 @@ def _case(source: CaseInput | WearResult, sprocket: str | None) -> tuple[Case, W
         names = " or ".join(f"sprocket={name!r}" for name in cases)
         text = "must name one wheel of the drive" + (f" (got {sprocket!r})" if sprocket else "")
         raise CaseError([Fault(f"{text}: give {names}, one call a wheel", "sprocket", found.name)])
-    return cases[sprocket], None
+    return cases[sprocket], source.results[sprocket] if isinstance(source, DriveLife) else None
 
 
 def _format(place: str | PathLike[str] | None, known: Sequence[str]) -> str | None:

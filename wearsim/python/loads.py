@@ -4,14 +4,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import Range, check_ranges
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads, tooth_loads
 from wearsim.python.answer import Answer, table_of
 from wearsim.python.case_input import CaseInput, loaded
 from wearsim.quantities import grouped
+from wearsim.report.drive.layout import drive_loads_json, layout_text
 from wearsim.report.loads_table import loads_json, loads_table
-from wearsim.study.whole_drive.keys import DriveCase
-from wearsim.study.whole_drive.layout import drive_loads_json, layout_text
 
 if TYPE_CHECKING:
     import pandas as pd

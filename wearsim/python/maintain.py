@@ -5,15 +5,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
+from wearsim.drive.life import drive_life
+from wearsim.drive.maintenance import DrivePlan, drive_plan
 from wearsim.python.answer import DrawnAnswer, table_of
 from wearsim.python.case_input import CaseInput, loaded, with_table
 from wearsim.python.study_run import Progress, silent
+from wearsim.report.drive.plan_sheet import plan_json, plan_text
 from wearsim.study.maintain.model import MaintenancePlan
 from wearsim.study.maintain.model import maintain as compare_policies
 from wearsim.study.maintain.sheet import maintenance_json, maintenance_text
-from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
-from wearsim.study.whole_drive.model import drive_life
-from wearsim.study.whole_drive.plan_sheet import plan_json, plan_text
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -6,14 +6,15 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any, overload
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import chain_case
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.python.answer import Answer, table_of
 from wearsim.python.case_input import CaseInput, loaded
 from wearsim.python.chain_readings import ChainReadingsResult
 from wearsim.python.readings_file import readings_file
 from wearsim.python.study_run import Progress, silent
-from wearsim.report.answer import hours as in_hours
 from wearsim.result import Life, LowerBound
+from wearsim.result.lives import hours as in_hours
 from wearsim.study.remaining.chain_state import chain_state
 from wearsim.study.remaining.model import (
     DEPTH,
@@ -24,7 +25,6 @@ from wearsim.study.remaining.model import (
     remaining_life,
 )
 from wearsim.study.remaining.sheet import remaining_json, remaining_text
-from wearsim.study.whole_drive.keys import chain_case
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -6,13 +6,14 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.load_case import load_drive
 from wearsim.errors import CaseError, Range, check_ranges
 from wearsim.python.answer import Answer, table_of
 from wearsim.quantities import grouped
 from wearsim.study.select.case_file import case_tables
 from wearsim.study.select.sheet import SelectionAnswer, answer_to, selection_json, selection_text
 from wearsim.study.select.wish import Wish, read_wish
-from wearsim.study.whole_drive.keys import DriveCase, load_drive
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -5,11 +5,12 @@ from os import PathLike
 from typing import Any, overload
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_result import DriveLife
+from wearsim.drive.life import drive_life
 from wearsim.python.case_input import CaseInput, loaded
 from wearsim.result import WearResult
 from wearsim.simulation import simulate as simulate_case
-from wearsim.study.whole_drive.keys import DriveCase
-from wearsim.study.whole_drive.model import DriveLife, drive_life
 
 
 @overload

@@ -12,9 +12,10 @@ from PIL import Image
 from wearsim.quantities import grouped
 from wearsim.report.animation_file import encoded
 from wearsim.report.animation_panels import MovingPanel, depth_panel, elongation_panel, flank_panel
-from wearsim.report.answer import ending, hours
+from wearsim.report.answer import ending
 from wearsim.report.worn_flank import worn_flanks
 from wearsim.result import WearResult
+from wearsim.result.lives import hours
 
 if TYPE_CHECKING:
     from matplotlib.typing import HashableList

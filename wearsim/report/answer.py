@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 from wearsim.chain.power_rating import RATED_HOURS
 from wearsim.chain.selection import RATED_FOR_HOURS, RatingFinding
 from wearsim.quantities import DAYS_OF_YEAR, grouped
-from wearsim.report.events import Event, drive_events, event_rows
-from wearsim.report.service import service_measures
 from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, LimitState, LowerBound, WearResult
 from wearsim.result.ends import JOINT_WEAR, TOOTH_WEAR, PartEnd, end_rows, first_end
+from wearsim.result.events import Event, drive_events, event_rows
+from wearsim.result.lives import hours
 from wearsim.result.second_opinions import SecondOpinions, practice_text, rule_rows
+from wearsim.result.service import service_measures
 from wearsim.wear.accuracy import LEAST_ORDER, MAX_ORDER, GridStudy
 
 if TYPE_CHECKING:
@@ -39,13 +40,6 @@ _AT_END = "at the end of the life"
 
 _LEAST_AREA = 1e-10
 """Area that is lost in the digits of the points of a flank [mm2]."""
-
-
-def hours(life: Life | LowerBound) -> str:
-    """Return a life in hours, a bound with its sign."""
-    if isinstance(life, Life):
-        return f"{grouped(life.hours)} h"
-    return f"> {grouped(life.hours_run)} h"
 
 
 def headline(result: WearResult) -> str:

@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from wearsim.files import new_folder
-from wearsim.report.answer import governing_text, headline, hours, limit_text
+from wearsim.report.answer import governing_text, headline, limit_text
 from wearsim.report.figures import comparison_figures, save_figure
 from wearsim.result import Life, WearResult, life_keys
+from wearsim.result.lives import hours
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
+from wearsim.drive.load_case import load_single
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.quantities import grouped
@@ -24,7 +24,7 @@ def case_of(result: WearResult) -> Case:
     with tempfile.TemporaryDirectory() as folder:
         for name, text in result.input_files.items():
             (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
-        return load_case(_of_one_sprocket(with_files(result.inputs, folder)))
+        return load_single(_of_one_sprocket(with_files(result.inputs, folder)))
 
 
 def _of_one_sprocket(inputs: Mapping[str, Any]) -> dict[str, Any]:

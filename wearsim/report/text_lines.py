@@ -4,14 +4,13 @@ import re
 import textwrap
 from collections.abc import Collection, Iterable, Sequence
 
+from wearsim.quantities import kind_of_text
+
 _WIDTH = 100
 _LABEL = 13
 
 _GROUP = re.compile(r"(?<=\d) (?=\d{3}\b)")
 """What sets thousands apart."""
-
-_NUMBER = re.compile(r"(?<![\w.])(?<!\w-)-?\d+(?: \d{3})*(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
-"""A number as it is printed, with what sets its thousands apart."""
 
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
 
@@ -146,31 +145,6 @@ def defaults_by_kind(texts: Iterable[str]) -> list[tuple[str, int]]:
         first, count = found.get(kind, (text, 0))
         found[kind] = first, count + 1
     return sorted(found.values(), key=lambda entry: -entry[1])
-
-
-def kind_of_text(text: str) -> str:
-    """Return a text without its numbers.
-
-    Examples
-    --------
-    >>> kind_of_text("08B-1 from -4.5e3 h to 33 320 h")
-    '08B-1 from # h to # h'
-    """
-    return _NUMBER.sub("#", text)
-
-
-def with_ranges(texts: Sequence[str]) -> str:
-    """Return texts of one kind as one, with the range of each number that is not the same in all.
-
-    Examples
-    --------
-    >>> with_ranges(["error 0.12 exceeds 0.05", "error 0.083 exceeds 0.05", "error 0.1 exceeds 0.05"])
-    'error 0.083 to 0.12 exceeds 0.05'
-    """
-    columns = zip(*(_NUMBER.findall(text) for text in texts), strict=True)
-    ranges = (sorted(column, key=lambda number: float(number.replace(" ", ""))) for column in columns)
-    shown = iter([" to ".join(dict.fromkeys((each[0], each[-1]))) for each in ranges])
-    return _NUMBER.sub(lambda _: next(shown), texts[0])
 
 
 def literal(text: str) -> str:

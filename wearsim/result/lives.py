@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from wearsim.errors import LimitNotReachedError
+from wearsim.quantities import grouped
 
 
 @dataclass(frozen=True)
@@ -135,3 +136,10 @@ class LimitState:
         """Distance to the limit, 0 where only rounding is left."""
         met = math.isclose(self.limit, self.value, rel_tol=1e-9)
         return 0.0 if met else abs(self.limit - self.value)
+
+
+def hours(life: Life | LowerBound) -> str:
+    """Return a life in hours, a bound with its sign."""
+    if isinstance(life, Life):
+        return f"{grouped(life.hours)} h"
+    return f"> {grouped(life.hours_run)} h"

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
+from wearsim.drive.load_case import load_single
 from wearsim.errors import WearsimError
 from wearsim.input.document import CaseSource
 from wearsim.simulation.batch_lives import CaseLife, simulate_many
@@ -22,4 +22,4 @@ class CaseKind:
     parts: tuple[str, ...] = ()  # parts whose lives have columns of their own
 
 
-ONE_SPROCKET = CaseKind(load_case, load_case, partial(simulate_many, threads=1))
+ONE_SPROCKET = CaseKind(load_single, load_single, partial(simulate_many, threads=1))

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 from problems import PACKAGE, STRAND, Problem, strand
 
-from wearsim.case.load_case import load_case
 from wearsim.contact.stop_limits import depth_limit
+from wearsim.drive.load_case import load_case
 from wearsim.geometry.profile_points import Profile
 from wearsim.wear.advance import run_advance
 

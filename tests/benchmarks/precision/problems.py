@@ -12,9 +12,9 @@ import integrators
 import numpy as np
 from scipy.integrate import LSODA, RK45
 
-from wearsim.case.load_case import load_case
 from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.stop_limits import depth_limit
+from wearsim.drive.load_case import load_case
 from wearsim.kernels.controlled_steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.kernels.flank_geometry import flank_frame
 from wearsim.kernels.hertz_wear import DEPTH_REACHED, soften_edges, wear_depth

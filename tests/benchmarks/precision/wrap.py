@@ -6,8 +6,8 @@ from time import process_time
 
 import numpy as np
 
-from wearsim.case.load_case import load_case
 from wearsim.contact.stop_limits import depth_limit
+from wearsim.drive.load_case import load_case
 from wearsim.wear.implicit_steps import run_seated
 from wearsim.wear.law import archard
 

@@ -5,9 +5,10 @@ import math
 from collections.abc import Sequence
 
 from wearsim.quantities import grouped
-from wearsim.report.answer import hours, limit_text
+from wearsim.report.answer import limit_text
 from wearsim.report.html.charts import Chart, ValueTable, panels, rounded_numbers, series
 from wearsim.result import Life, WearResult
+from wearsim.result.lives import hours
 
 
 def lives_chart(results: Sequence[WearResult], labels: Sequence[str]) -> Chart:

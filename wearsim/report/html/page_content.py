@@ -10,18 +10,8 @@ from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.citation import apa
 from wearsim.quantities import grouped
-from wearsim.report.answer import (
-    BAND,
-    LIMITS,
-    OVERLOADED,
-    ending,
-    findings,
-    hours,
-    overload_text,
-    result_events,
-)
+from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, overload_text, result_events
 from wearsim.report.comparison import comparison_cells, differing_limits
-from wearsim.report.events import EVENT_HEAD, Event, event_rows
 from wearsim.report.figures import comparison_figures, picture
 from wearsim.report.flank_view import case_of
 from wearsim.report.html.charts import Chart
@@ -35,6 +25,8 @@ from wearsim.report.rating import RATING_HEAD, rating_cells
 from wearsim.report.text_lines import stated_and_defaults
 from wearsim.result import Life, WearResult
 from wearsim.result.ends import END_HEAD, PartEnd, end_rows
+from wearsim.result.events import EVENT_HEAD, Event, event_rows
+from wearsim.result.lives import hours
 from wearsim.result.second_opinions import RULE_HEAD, SecondOpinions, practice_text, rule_rows
 
 

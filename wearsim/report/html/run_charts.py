@@ -7,7 +7,6 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.quantities import grouped
-from wearsim.report.answer import hours
 from wearsim.report.flank_view import at_life, snapshot
 from wearsim.report.html.charts import (
     Chart,
@@ -20,6 +19,7 @@ from wearsim.report.html.charts import (
     series,
 )
 from wearsim.result import Life, WearResult
+from wearsim.result.lives import hours
 
 if TYPE_CHECKING:
     from wearsim.mechanisms.wrap.tooth_loads import ToothLoads

@@ -7,7 +7,6 @@ from wearsim.quantities import quantities
 from wearsim.report.answer import (
     JUMPING,
     governing_text,
-    hours,
     limit_name,
     limit_state,
     overload_text,
@@ -15,7 +14,6 @@ from wearsim.report.answer import (
 )
 from wearsim.report.comparison import comparison_table, differing_limits
 from wearsim.report.rating import rule
-from wearsim.report.service import life_json
 from wearsim.report.workbook.workbook_writer import (
     HEADER,
     SECTION,
@@ -24,6 +22,8 @@ from wearsim.report.workbook.workbook_writer import (
     number_format,
 )
 from wearsim.result import Life, WearResult
+from wearsim.result.lives import hours
+from wearsim.result.service import life_json
 
 _NOT_SHOWN = (
     "schema_version",

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
-from wearsim.case.load_case import load_case
+from wearsim.drive.load_case import load_single
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile_points import Vector
 from wearsim.runner.design import replaced
@@ -98,7 +98,7 @@ class PredictedHistories:
             for name, value in key:
                 tables = replaced(tables, name.split("."), value)
             # How the lubricant ages is a matter of time alone, which readings are held against.
-            case = replace(load_case(tables), lubrication=None)
+            case = replace(load_single(tables), lubrication=None)
             predicted = PredictedHistory(simulate(case))
             if not predicted.reached:
                 raise ConvergenceError(

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
 from wearsim.simulation import case_clock
 from wearsim.study.remaining.relubrications import RelubricationLog, relubricated
-from wearsim.study.whole_drive.keys import DriveCase
 from wearsim.wear.lubricant_clock import LubricatedClock
 
 

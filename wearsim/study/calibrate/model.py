@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from wearsim.case.load_case import load_case
-from wearsim.input.document import CaseSource, is_whole_drive, read_document
+from wearsim.drive.drive_case import DriveCase, chain_case
+from wearsim.drive.load_case import load_case
+from wearsim.input.document import CaseSource, read_document
 from wearsim.runner.scaled_percentiles import check_no_running_in
 from wearsim.runner.scatter import plain_document, with_whole_paths
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
@@ -12,7 +13,6 @@ from wearsim.study.calibrate.case_fit import CaseFit
 from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.reading_checks import check_of_chain, check_readings
 from wearsim.study.calibrate.readings import read_readings
-from wearsim.study.whole_drive.keys import DriveCase, chain_case, load_drive
 
 
 def calibrate(
@@ -30,7 +30,7 @@ def calibrate(
     """
     options = options or CalibrationOptions()
     document = read_document(source, overrides)
-    given = load_drive(source, overrides) if is_whole_drive(document.data) else load_case(source, overrides)
+    given = load_case(source, overrides)
     case = chain_case(given)
     check_no_running_in(case, "calibrate")
     readings, log = read_readings(measurements, case)

@@ -4,20 +4,21 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import lubricants
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_result import CHAIN
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_case
+from wearsim.drive.maintenance import part_lives
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
-from wearsim.input.document import GivenInput, is_whole_drive
+from wearsim.input.document import GivenInput
 from wearsim.input.schema.lubrication_tables import APPLICATION, FADES, LASTS, RATES, SCHEDULES, SUPPLY
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import case_clock, simulate
 from wearsim.simulation.wrap_life import chain_clock
 from wearsim.study.lubricate.model import LubricatedDrive, LubricationStudy, check_ages, lubrication_study
-from wearsim.study.whole_drive.keys import DriveCase, load_drive
-from wearsim.study.whole_drive.maintenance import part_lives
-from wearsim.study.whole_drive.model import CHAIN, drive_life
 from wearsim.wear.wear_clock import WearClock
 
 SPROCKET = "sprocket"
@@ -69,7 +70,7 @@ def _options(given: GivenInput) -> Iterator[Case | DriveCase]:
             changes = {f"lubrication.{key}": None for key in dropped if key in table} | changes
         other = replace(changed(given, {**changes, "lubrication.option": None}), file=given.file)
         try:
-            yield load_drive(other) if is_whole_drive(dict(other.tables)) else load_case(other)
+            yield load_case(other)
         except CaseError as error:
             place = f"lubrication.option.{number}"
             raise CaseError([_of_option(fault, place, option) for fault in error.faults]) from None

@@ -29,7 +29,7 @@ def maintain(case: Path, out: Path | None, force: bool, as_json: bool, settings:
     A CASE with [[sprocket]] twice is a whole drive: when to replace which of its parts, by the
     life of each and the prices in [maintenance].
     """
-    from wearsim.study.whole_drive.command import is_drive, planned
+    from wearsim.command.whole_drives import is_drive, planned
 
     if is_drive(case):
         planned(case, settings, as_json, out, force)

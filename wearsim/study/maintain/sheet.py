@@ -7,9 +7,9 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
-from wearsim.report.answer import hours
 from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 from wearsim.result import Life, LowerBound, life_keys
+from wearsim.result.lives import hours
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
 from wearsim.study.maintain.tooth_count import ToothCount
 

@@ -7,9 +7,9 @@ from itertools import product
 from pathlib import PurePath
 from typing import Any
 
-from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.chain.drive_layout import ToothMeetings
+from wearsim.drive.load_case import load_single
 from wearsim.input.schema.drive_tables import STANDARD_FORMS
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.result import Life, LowerBound
@@ -58,4 +58,4 @@ def variant(case: Case, meetings: ToothMeetings) -> Case:
             name = PurePath(inputs[table][key]).name
             (path,) = (path for path in case.files if path.name == name)
             inputs[table][key] = str(path.resolve())
-    return load_case(inputs)
+    return load_single(inputs)

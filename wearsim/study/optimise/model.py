@@ -6,9 +6,9 @@ from itertools import zip_longest
 from pathlib import Path, PurePath
 from typing import Any
 
-from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import materials
+from wearsim.drive.load_case import load_single
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.schema.study_tables import MeasureLimit, OptimiseTable
@@ -68,7 +68,7 @@ class OptimiseStudy:
 def load_optimise(source: CaseSource, overrides: Sequence[str], evaluations: int, seed: int) -> OptimiseStudy:
     """Return what is asked of a case by its table [optimise]."""
     document = read_document(source, overrides)
-    case = load_case(source, overrides)
+    case = load_single(source, overrides)
     if "optimise" not in case.inputs:
         text = "this table is required: it tells what may change, as parameters by their keys"
         raise CaseError([Fault(text, "optimise", document.faults.file)])
@@ -81,7 +81,7 @@ def load_optimise(source: CaseSource, overrides: Sequence[str], evaluations: int
         life = limits["life_hours"]
         # A life that runs beyond its high limit must be seen to.
         horizon = max(life.low or 0.0, _BEYOND * (life.high or 0.0), case.run.horizon_hours)
-        raised = load_case(source, [*overrides, f"run.horizon_hours={horizon!r}"])
+        raised = load_single(source, [*overrides, f"run.horizon_hours={horizon!r}"])
         case = replace(raised, title=case.title)
     data = {name: part for name, part in document.data.items() if name != "optimise"}
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)

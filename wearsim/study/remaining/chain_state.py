@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from wearsim.case.model import Case, WearBand
+from wearsim.drive.drive_case import DriveCase, chain_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.simulation.wrap_life import chain_clock, wrap_of
@@ -24,7 +25,6 @@ from wearsim.study.remaining.contradictions import (
 from wearsim.study.remaining.dated_rows import day_after
 from wearsim.study.remaining.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
 from wearsim.study.remaining.relubrications import relubricated
-from wearsim.study.whole_drive.keys import DriveCase, chain_case
 
 _BEYOND, _POINTS = 1.1, 400
 """Part of the latest end of the life up to which the elongation is told, and at how many times."""

@@ -23,7 +23,7 @@ from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
-    from wearsim.study.whole_drive.keys import DriveCase
+    from wearsim.drive.drive_case import DriveCase
 
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
@@ -120,9 +120,9 @@ def remaining(
     if out is not None:
         raise click.UsageError("--out needs READINGS: one reading has neither table nor picture")
     loaded = _loaded(case, settings, as_json)
+    from wearsim.drive.drive_case import chain_case
     from wearsim.study.remaining.model import DEPTH, ELONGATION, OVER_PINS, SingleReading, remaining_life
     from wearsim.study.remaining.sheet import remaining_json, remaining_text
-    from wearsim.study.whole_drive.keys import chain_case
 
     quantity = DEPTH if depth_mm is not None else ELONGATION if elongation is not None else OVER_PINS
     error = reading_error_percent if elongation is not None else reading_error_mm
@@ -166,7 +166,7 @@ def _of_chain(
 
 def _loaded(case: Path, settings: tuple[str, ...], as_json: bool) -> "Case | DriveCase":
     """Return a case, or a whole drive, whose chain can be read."""
-    from wearsim.study.whole_drive.command import is_drive, loaded_drive
+    from wearsim.command.whole_drives import is_drive, loaded_drive
 
     if is_drive(case):
         return loaded_drive(case, settings, as_json)

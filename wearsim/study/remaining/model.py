@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.case.model import Case, WearBand
+from wearsim.drive.drive_case import DriveCase, chain_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.result import Life, LowerBound
@@ -13,7 +14,6 @@ from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap_life import chain_clock, wrap_of
 from wearsim.study.remaining.contradictions import JOINTS, TEETH, band_warning
-from wearsim.study.whole_drive.keys import DriveCase, chain_case
 
 
 def ambiguous_reading(over_pins: Vector, error: float) -> str:

@@ -7,11 +7,11 @@ from typing import Any
 
 from wearsim.case.lubrication_input import LubricationInput, RunningWay
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase, chain_case
 from wearsim.errors import CaseError, Fault
 from wearsim.quantities import grouped
 from wearsim.simulation import case_clock
 from wearsim.study.remaining.dated_rows import DatedRows, ServiceTime
-from wearsim.study.whole_drive.keys import DriveCase, chain_case
 
 NEW, RELUBRICATION = "new", "relubrication"
 EVENTS = (NEW, RELUBRICATION)

@@ -5,10 +5,11 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.answer import hours, service_text
-from wearsim.report.service import service_keys
+from wearsim.report.answer import service_text
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result import Life, life_keys
+from wearsim.result.lives import hours
+from wearsim.result.service import service_keys
 from wearsim.study.remaining.model import RemainingLife
 
 _WORDS = {

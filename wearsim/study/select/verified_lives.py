@@ -3,10 +3,10 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
 from wearsim.quantities import grouped
 from wearsim.result import Life, life_keys
-from wearsim.study.whole_drive.keys import load_drive
-from wearsim.study.whole_drive.model import drive_life
 
 _HORIZON = 2.0
 """Hours that the runs cover over those that the drive must live."""

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from wearsim.case.load_case import load_case
 from wearsim.case.model import Case
+from wearsim.drive.load_case import load_single
 from wearsim.errors import StudyError
 from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
@@ -135,7 +135,7 @@ def _case_with(scattered: ScatteredCase, key: str, value: float) -> Case:
     for scatter in scattered.scatters:
         given = value if scatter.key == key else scatter.value
         tables = replaced(tables, scatter.key.split("."), given)
-    return load_case(tables)
+    return load_single(tables)
 
 
 def _problem(scattered: ScatteredCase) -> dict[str, Any]:

@@ -27,14 +27,14 @@ def solve(
 ) -> int:
     """Print the value of a key at which a case lives so long, and its answer there."""
     (case,) = load_cases([path], settings, as_json)
-    from wearsim.case.load_case import load_case
+    from wearsim.drive.load_case import load_single
     from wearsim.study.solve_for.model import solve_for
 
     try:
         start = _start(case, key)
         with working(f"solving {case.title} for {key}"):
             solved = solve_for(
-                lambda value: load_case(path, [*settings, _setting(key, value, start)]),
+                lambda value: load_single(path, [*settings, _setting(key, value, start)]),
                 start,
                 hours,
                 whole=isinstance(start, int),
@@ -72,7 +72,7 @@ def _setting(key: str, value: float, start: float) -> str:
 def _show(solved: "Solved", path: Path, key: str, hours: float, start: float, as_json: bool) -> None:
     from wearsim.quantities import grouped
     from wearsim.report.answer import answer
-    from wearsim.report.service import life_json
+    from wearsim.result.service import life_json
 
     result = solved.trial.result
     if as_json:

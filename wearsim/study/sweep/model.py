@@ -18,8 +18,8 @@ from wearsim.input.other_files import check_command
 from wearsim.input.schema import CaseTables, PlacedSprocketTable
 from wearsim.input.schema.table import Table, without_numbers
 from wearsim.runner.design import Design, design, replaced
+from wearsim.runner.drive_cases import kind_of
 from wearsim.study.sweep.keys import Range, SweepTables
-from wearsim.study.whole_drive.study_cases import kind_of
 
 MAX_CASES = 10_000_000
 

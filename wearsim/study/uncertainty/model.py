@@ -11,8 +11,8 @@ from scipy.stats import qmc
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import CaseSource, read_document
 from wearsim.runner.design import Design
+from wearsim.runner.drive_cases import kind_of
 from wearsim.runner.scatter import ScatteredCase, load_scattered
-from wearsim.study.whole_drive.study_cases import kind_of
 
 Method = Literal["sobol", "lhs", "random"]
 METHODS: tuple[Method, ...] = ("sobol", "lhs", "random")

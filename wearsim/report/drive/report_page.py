@@ -8,22 +8,17 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from wearsim._version import __version__
+from wearsim.drive.drive_result import DriveLife
+from wearsim.drive.maintenance import DrivePlan, drive_plan
 from wearsim.errors import OutputError
 from wearsim.files import check_free, new_folder, write_file
 from wearsim.geometry.scene import Circle, Scene
 from wearsim.quantities import grouped
 from wearsim.report import html
-from wearsim.report.answer import hours, overload_text
-from wearsim.report.html.page_content import HtmlTable, chain_tables
-from wearsim.report.html.sketch import sketch
-from wearsim.report.text_lines import unbroken
-from wearsim.report.worn_flank import around_flank, worn_flanks
-from wearsim.result import WearResult
-from wearsim.study.whole_drive.layout_sketch import flank_place, layout_sketch
-from wearsim.study.whole_drive.lives_bars import lives_bars
-from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
-from wearsim.study.whole_drive.model import DriveLife
-from wearsim.study.whole_drive.page_tables import (
+from wearsim.report.answer import overload_text
+from wearsim.report.drive.layout_sketch import flank_place, layout_sketch
+from wearsim.report.drive.lives_bars import lives_bars
+from wearsim.report.drive.page_tables import (
     PageTable,
     chain_rows,
     geometry_table,
@@ -35,13 +30,13 @@ from wearsim.study.whole_drive.page_tables import (
     shaft_table,
     span_table,
 )
-from wearsim.study.whole_drive.sheet import (
-    against_hours,
-    first_text,
-    jumping_text,
-    taken_for_granted,
-    within_text,
-)
+from wearsim.report.drive.sheet import against_hours, first_text, jumping_text, taken_for_granted, within_text
+from wearsim.report.html.page_content import HtmlTable, chain_tables
+from wearsim.report.html.sketch import sketch
+from wearsim.report.text_lines import unbroken
+from wearsim.report.worn_flank import around_flank, worn_flanks
+from wearsim.result import WearResult
+from wearsim.result.lives import hours
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _STYLE = Path(html.__file__).with_name("style.css")

@@ -4,13 +4,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from wearsim.drive.drive_result import CHAIN, DriveLife
+from wearsim.drive.maintenance import DrivePlan, drive_plan
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
-from wearsim.report.answer import hours
+from wearsim.report.drive.sheet import first_text, ratings_text
 from wearsim.result import life_keys
-from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
-from wearsim.study.whole_drive.model import CHAIN, DriveLife
-from wearsim.study.whole_drive.sheet import first_text, ratings_text
+from wearsim.result.lives import hours
 
 if TYPE_CHECKING:
     import pandas as pd

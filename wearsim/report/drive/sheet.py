@@ -5,6 +5,10 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.chain.selection import RATED_FOR_HOURS
+from wearsim.drive.drive_result import CHAIN, DriveLife
+from wearsim.drive.maintenance import DrivePlan, drive_plan
+from wearsim.drive.plan import Stop
+from wearsim.drive.said_of_sprockets import said_of_sprockets
 from wearsim.quantities import grouped
 from wearsim.report.answer import (
     JUMPING,
@@ -12,23 +16,19 @@ from wearsim.report.answer import (
     beyond_ratings,
     chain_rows,
     ending,
-    hours,
     jumping_margin,
     overload_text,
     service_text,
 )
-from wearsim.report.events import events_json
-from wearsim.report.service import service_keys, service_measures
+from wearsim.report.drive.layout import layout_json
+from wearsim.report.drive.plan_words import ordinal
 from wearsim.report.text_lines import listed, stated_and_defaults
 from wearsim.result import Life, LowerBound, WearResult, life_keys
 from wearsim.result.ends import JOINT_WEAR, ends_json, first_end
+from wearsim.result.events import events_json
+from wearsim.result.lives import hours
 from wearsim.result.second_opinions import opinions_json, practice_text
-from wearsim.study.whole_drive.layout import layout_json
-from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
-from wearsim.study.whole_drive.model import CHAIN, DriveLife
-from wearsim.study.whole_drive.plan import Stop
-from wearsim.study.whole_drive.plan_words import ordinal
-from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
+from wearsim.result.service import service_keys, service_measures
 
 Lives = Mapping[str, Life | LowerBound]
 

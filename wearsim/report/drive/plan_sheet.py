@@ -4,16 +4,16 @@ from pathlib import Path
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
+from wearsim.drive.drive_result import CHAIN
+from wearsim.drive.maintenance import DrivePlan
+from wearsim.drive.plan import ReplacementRule, Stop
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
-from wearsim.report.answer import hours
-from wearsim.report.service import service_measures
+from wearsim.report.drive.plan_words import rule_text
 from wearsim.report.text_lines import row, table_lines
 from wearsim.result import LowerBound, life_keys
-from wearsim.study.whole_drive.maintenance import DrivePlan
-from wearsim.study.whole_drive.model import CHAIN
-from wearsim.study.whole_drive.plan import ReplacementRule, Stop
-from wearsim.study.whole_drive.plan_words import rule_text
+from wearsim.result.lives import hours
+from wearsim.result.service import service_measures
 
 _PER = 1000.0
 """Hours for which parts, stops and cost are given."""

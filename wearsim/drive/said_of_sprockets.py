@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
-from wearsim.report.text_lines import kind_of_text, with_ranges
-from wearsim.study.whole_drive.wheels import DriveWheel
+from wearsim.drive.wheels import DriveWheel
+from wearsim.quantities import kind_of_text, with_ranges
 
 
 def said_of_sprockets(texts: Mapping[str, Sequence[str]], wheels: Sequence[DriveWheel]) -> tuple[str, ...]:

@@ -8,12 +8,12 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.chain.loop_forces import LoopForces
 from wearsim.chain.selection import rating_warnings
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.wheels import DRIVER
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads
 from wearsim.report.loads_table import loads_json
 from wearsim.report.rating import rating_json
 from wearsim.report.text_lines import row
-from wearsim.study.whole_drive.keys import DriveCase
-from wearsim.study.whole_drive.wheels import DRIVER
 
 
 def drive_forces(drive: DriveCase) -> LoopForces:

@@ -2,12 +2,12 @@
 
 from markupsafe import Markup
 
+from wearsim.drive.drive_case import DriveCase
 from wearsim.geometry.scene import Circle
 from wearsim.mechanisms.wrap.loop_scene import loop_scene
+from wearsim.report.drive.layout import drive_forces, loop_names
+from wearsim.report.drive.page_tables import wheel_of
 from wearsim.report.html.sketch import sketch
-from wearsim.study.whole_drive.keys import DriveCase
-from wearsim.study.whole_drive.layout import drive_forces, loop_names
-from wearsim.study.whole_drive.page_tables import wheel_of
 
 
 def flank_place(number: int) -> str:

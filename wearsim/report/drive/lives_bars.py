@@ -6,11 +6,11 @@ from itertools import pairwise
 
 from markupsafe import Markup
 
+from wearsim.drive.maintenance import DrivePlan
 from wearsim.geometry.scene import round_length
 from wearsim.quantities import grouped
-from wearsim.report.answer import hours
-from wearsim.report.service import service_measures
-from wearsim.study.whole_drive.maintenance import DrivePlan
+from wearsim.result.lives import hours
+from wearsim.result.service import service_measures
 
 _ROW, _BAR, _AXIS = 29, 9, 36
 """Heights of a row, of the bar in it and of the axis [px]."""

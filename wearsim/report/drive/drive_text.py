@@ -2,14 +2,12 @@
 
 import shlex
 
+from wearsim.drive.drive_result import CHAIN, DriveLife
+from wearsim.drive.maintenance import DrivePlan, drive_plan
+from wearsim.drive.plan import Stop
 from wearsim.quantities import grouped
-from wearsim.report.answer import hours, used_text
-from wearsim.report.text_lines import counted, listed, numbered, row
-from wearsim.result import Life
-from wearsim.study.whole_drive.maintenance import DrivePlan, drive_plan
-from wearsim.study.whole_drive.model import CHAIN, DriveLife
-from wearsim.study.whole_drive.plan import Stop
-from wearsim.study.whole_drive.sheet import (
+from wearsim.report.answer import used_text
+from wearsim.report.drive.sheet import (
     Lives,
     against_hours,
     band_source,
@@ -33,6 +31,9 @@ from wearsim.study.whole_drive.sheet import (
     worn_most_text,
     worn_text,
 )
+from wearsim.report.text_lines import counted, listed, numbered, row
+from wearsim.result import Life
+from wearsim.result.lives import hours
 
 _MAX_LINES, _TITLE_ASSUMES_NEXT = 12, 3
 _MAX_ROWS = 2

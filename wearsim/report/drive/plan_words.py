@@ -1,9 +1,9 @@
 """A plan of replacements in words."""
 
+from wearsim.drive.plan import CHAIN, ReplacementRule
+from wearsim.drive.renewal import Cycle, cycles_in_life
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import listed
-from wearsim.study.whole_drive.plan import CHAIN, ReplacementRule
-from wearsim.study.whole_drive.renewal import Cycle, cycles_in_life
 
 _MAX_STOPS = 6
 """Stops of a part that are named; of more only their number is said."""
@@ -26,7 +26,7 @@ def rule_text(rule: ReplacementRule) -> str:
 
     Examples
     --------
-    >>> from wearsim.study.whole_drive.plan import replacement_rules
+    >>> from wearsim.drive.plan import replacement_rules
     >>> for rule in replacement_rules(1000.0, {"driver": 900.0, "roll": 9950.0})[:2]:
     ...     rule_text(rule)
     'chain every 1 000 h, driver every 900 h, roll every 9 950 h'

@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from wearsim.drive.wheels import DriveWheel
 from wearsim.input.document import Document
-from wearsim.study.whole_drive.wheels import DriveWheel
 
 GIVEN_BY_WHEELS = "mate_teeth"
 """Key of [drive] that the other sprockets give."""

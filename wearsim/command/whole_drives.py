@@ -29,10 +29,10 @@ from wearsim.result import Life
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
+    from wearsim.drive.drive_result import DriveLife
     from wearsim.geometry.wheel_outline import State
     from wearsim.result import WearResult
-    from wearsim.study.whole_drive.keys import DriveCase
-    from wearsim.study.whole_drive.model import DriveLife
 
 
 def is_drive(path: Path) -> bool:
@@ -98,8 +98,8 @@ def loaded_teeth(
 ) -> None:
     """Print what spans, shafts and all teeth of a drive carry."""
     from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
+    from wearsim.report.drive.layout import drive_loads_json, layout_text
     from wearsim.report.loads_table import loads_table
-    from wearsim.study.whole_drive.layout import drive_loads_json, layout_text
 
     drive = loaded_drive(path, settings, as_json)
     teeth = {one.name: tooth_loads(one.case, elongation, phase) for one in drive.sprockets}
@@ -123,9 +123,9 @@ def live(
     explain: bool,
 ) -> int:
     """Print how long every part of some drives lives, and write their files; return the exit code."""
-    from wearsim.study.whole_drive.drive_text import drive_text
-    from wearsim.study.whole_drive.folder import write_drive
-    from wearsim.study.whole_drive.sheet import drive_json, found_rows
+    from wearsim.report.drive.drive_folder import write_drive
+    from wearsim.report.drive.drive_text import drive_text
+    from wearsim.report.drive.sheet import drive_json, found_rows
 
     found = lived(paths, settings, as_json, hours)
     for path, folder in zip(paths, folders, strict=True):
@@ -150,7 +150,7 @@ def lived(
     paths: Sequence[Path], settings: Sequence[str], as_json: bool, hours: float | None = None
 ) -> "dict[Path, DriveLife]":
     """Wear drives, all of which are checked before; one that fails is shown and left out of several."""
-    from wearsim.study.whole_drive.model import drive_life
+    from wearsim.drive.life import drive_life
 
     drives = dict(zip(paths, _all_loaded(paths, settings, as_json), strict=True))
     found: dict[Path, DriveLife] = {}
@@ -204,8 +204,8 @@ def compared(
     paths: Sequence[Path], settings: Sequence[str], as_json: bool, out: Path | None, force: bool
 ) -> int:
     """Print several drives side by side, and write them into a folder; return the exit code."""
-    from wearsim.study.whole_drive.comparison import drives_text, save_drives
-    from wearsim.study.whole_drive.sheet import drive_json
+    from wearsim.report.drive.comparison import drives_text, save_drives
+    from wearsim.report.drive.sheet import drive_json
 
     if out is not None:
         check_folder(out, force)
@@ -224,8 +224,8 @@ def compared(
 
 def planned(path: Path, settings: tuple[str, ...], as_json: bool, out: Path | None, force: bool) -> None:
     """Print when to replace the parts of a drive and what that costs; with ``out`` write it too."""
-    from wearsim.study.whole_drive.maintenance import drive_plan
-    from wearsim.study.whole_drive.plan_sheet import plan_json, plan_text, save_plan
+    from wearsim.drive.maintenance import drive_plan
+    from wearsim.report.drive.plan_sheet import plan_json, plan_text, save_plan
 
     if out is not None:
         check_folder(out, force)
@@ -242,7 +242,7 @@ def planned(path: Path, settings: tuple[str, ...], as_json: bool, out: Path | No
 
 def checked(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> None:
     """Print that drives are complete, where their chains run, their ratings, and what they assume."""
-    from wearsim.study.whole_drive.layout import drive_check_json
+    from wearsim.report.drive.layout import drive_check_json
 
     for path, drive in zip(paths, _all_loaded(paths, settings, as_json), strict=True):
         if as_json:
@@ -252,8 +252,8 @@ def checked(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> No
 
 
 def _check_text(drive: "DriveCase", path: Path) -> str:
+    from wearsim.report.drive.layout import drive_check_warnings, layout_text
     from wearsim.report.rating import notes_text, rating_table
-    from wearsim.study.whole_drive.layout import drive_check_warnings, layout_text
 
     case = drive.driver.case
     lines = [
@@ -274,7 +274,7 @@ def report_sheet(
     from wearsim.extras import check_installed
 
     check_installed(("jinja2",), "report", "report")
-    from wearsim.study.whole_drive.report_page import SheetHead, check_page, is_page, save_sheet
+    from wearsim.report.drive.report_page import SheetHead, check_page, is_page, save_sheet
 
     (check_page if is_page(out) else check_folder)(out, force)
     found = lived([path], settings, False)
@@ -292,7 +292,7 @@ def loaded_drive(path: Path, settings: Sequence[str], as_json: bool) -> "DriveCa
 
 def _all_loaded(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> "list[DriveCase]":
     """Load all drives before the first one runs; report all faults of all of them."""
-    from wearsim.study.whole_drive.keys import load_drive
+    from wearsim.drive.load_case import load_drive
 
     drives: list[DriveCase] = []
     faults: list[Fault] = []

@@ -1,35 +1,34 @@
-"""Lives of all parts of a drive on one clock."""
+"""How long all parts of a drive live, on one clock."""
 
-import math
-import os
-import threading
-from collections.abc import Callable
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from __future__ import annotations
+
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.selection import RatingFinding, rating_warnings
-from wearsim.errors import ContactError, ConvergenceError, WearsimError
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.said_of_sprockets import said_of_sprockets
+from wearsim.errors import WearsimError
 from wearsim.notebook import html_rows, one_line
-from wearsim.report.answer import hours
-from wearsim.report.events import Event, drive_events
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.result.ends import PartEnd, part_ends
+from wearsim.result.events import Event, drive_events
+from wearsim.result.lives import hours
 from wearsim.result.second_opinions import SecondOpinions
-from wearsim.simulation import simulate
 from wearsim.simulation.wrap_life import part_band
-from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
-from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
 
 if TYPE_CHECKING:
+    import pandas as pd
     from matplotlib.figure import Figure
 
 CHAIN = "chain"
 
-
-class _GivenUpError(Exception):
-    """Nobody waits for the runs of a drive any more."""
+_PICTURES, _SHEET = "wearsim.report.result_pictures", "wearsim.report.drive.sheet"
+_FOLDER = "wearsim.report.drive.drive_folder"
+"""What shows and writes a result; they know results, and not the other way round."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +49,7 @@ class DriveLife:
     results: dict[str, WearResult]
     failed: dict[str, WearsimError] = field(default_factory=dict)
 
-    def complete(self) -> "DriveLife":
+    def complete(self) -> DriveLife:
         """Return this where every sprocket has a life.
 
         Returns
@@ -81,7 +80,7 @@ class DriveLife:
         texts = ("assumes", self.drive.assumptions), ("warnings", self.warnings or "none")
         return html_rows(self.drive.title, [*lives, ("first", self.first), *texts])
 
-    def plot(self) -> "Figure":
+    def plot(self) -> Figure:
         """Draw the flanks of all sprockets, new and at the end of their lives.
 
         Returns
@@ -89,11 +88,10 @@ class DriveLife:
         matplotlib.figure.Figure
             A notebook shows it; ``savefig`` writes it.
         """
-        from wearsim.report.result_pictures import flank_picture
+        figure: Figure = import_module(_PICTURES).flank_picture(self._titled())
+        return figure
 
-        return flank_picture(self._titled())
-
-    def plot_history(self) -> "Figure":
+    def plot_history(self) -> Figure:
         """Draw the greatest depth of all sprockets, and the elongation of the chain, over running time.
 
         Returns
@@ -101,11 +99,10 @@ class DriveLife:
         matplotlib.figure.Figure
             A notebook shows it; ``savefig`` writes it.
         """
-        from wearsim.report.result_pictures import history_picture
+        figure: Figure = import_module(_PICTURES).history_picture(self._titled())
+        return figure
 
-        return history_picture(self._titled())
-
-    def plot_loads(self) -> "Figure":
+    def plot_loads(self) -> Figure:
         """Draw the force on each tooth of all sprockets, under a new chain and one at its limit.
 
         Returns
@@ -113,12 +110,72 @@ class DriveLife:
         matplotlib.figure.Figure
             A notebook shows it; ``savefig`` writes it.
         """
-        from wearsim.report.result_pictures import new_and_grown, tooth_loads_picture
-
-        return tooth_loads_picture({one.name: new_and_grown(one.case) for one in self.drive.sprockets})
+        pictures = import_module(_PICTURES)
+        loads = {one.name: pictures.new_and_grown(one.case) for one in self.drive.sprockets}
+        figure: Figure = pictures.tooth_loads_picture(loads)
+        return figure
 
     def _titled(self) -> list[WearResult]:
         return [replace(result, title=name) for name, result in self.results.items()]
+
+    @property
+    def title(self) -> str:
+        """What the drive is."""
+        return self.drive.title
+
+    @property
+    def cycles(self) -> float:
+        """Loading cycles of the part that ends first; raises where none does."""
+        return self.life.cycles
+
+    @cached_property
+    def history(self) -> pd.DataFrame:
+        """The runs over time: a row for every sprocket and snapshot."""
+        return self._table("history")
+
+    @cached_property
+    def flank(self) -> pd.DataFrame:
+        """The worn flanks: a row for every sprocket, snapshot and point."""
+        return self._table("flank")
+
+    def _table(self, name: str) -> pd.DataFrame:
+        import pandas as pd
+
+        tables = []
+        for sprocket, result in self.results.items():
+            table = pd.DataFrame(getattr(result, f"{name}_columns"))
+            table.insert(0, "sprocket", sprocket)
+            tables.append(table)
+        return pd.concat(tables, ignore_index=True)
+
+    def summary(self) -> dict[str, Any]:
+        """Return the answer as ``wearsim life --json`` prints it.
+
+        Returns
+        -------
+        dict
+            Plain numbers, strings, lists and None; never nan.
+        """
+        found: dict[str, Any] = import_module(_SHEET).drive_json(self)
+        return found
+
+    def save(self, folder: str | Path, force: bool = False) -> None:
+        """Write the result into a folder, all of it or nothing.
+
+        Parameters
+        ----------
+        folder : path
+            New folder for drive.json, drive.lock.toml, history.csv, flank.csv and ``inputs`` with the
+            files of the drive.
+        force : bool
+            Replace a folder that is there.
+
+        Raises
+        ------
+        OutputError
+            The folder is there, or cannot be written.
+        """
+        import_module(_FOLDER).write_drive(self, Path(folder), force)
 
     @property
     def chain(self) -> Life | LowerBound:
@@ -228,70 +285,3 @@ class DriveLife:
 def _named_fatigue(result: WearResult) -> dict[str, Life | LowerBound]:
     """Return lives of a sprocket by contact fatigue under the name of the sprocket."""
     return {f"{result.case}_fatigue": life for life in result.fatigue.values()}
-
-
-def drive_life(
-    drive: DriveCase,
-    least_horizon: float | None = None,
-    progress: Callable[[float], None] = lambda part: None,
-    threads: int | None = None,
-) -> DriveLife:
-    """Wear all sprockets of a drive, each with the chains that run on it.
-
-    The chain grows by its joints alone, at all sprockets: every sprocket meets the same chains at the
-    same times, and each is worn on its own. Where the run of one fails the others go on.
-
-    Parameters
-    ----------
-    drive : DriveCase
-        Sprockets and chain.
-    least_horizon : float, optional
-        Hours that the runs cover at least if nothing ends before; above 0.
-    progress : callable, optional
-        Told how much of the runs is done, from 0 to 1.
-    threads : int, optional
-        Sprockets that run side by side; as many as there are cores where it is left out.
-
-    Returns
-    -------
-    DriveLife
-        Results of all sprockets, and what the runs of some have failed with.
-
-    Raises
-    ------
-    WearsimError
-        As `wearsim.simulate` does for the case of a sprocket, where no run comes to its end.
-    """
-    done = dict.fromkeys((one.name for one in drive.sprockets), 0.0)
-    lock, given_up = threading.Lock(), threading.Event()
-
-    def _watch(name: str) -> Callable[[float], None]:
-        def _report(part: float) -> None:
-            if given_up.is_set():
-                raise _GivenUpError
-            with lock:
-                done[name] = part
-                progress(math.fsum(done.values()) / len(done))
-
-        return _report
-
-    def _run(one: DriveSprocket) -> WearResult | WearsimError:
-        report = _watch(one.name)
-        report(0.0)  # may end what nobody waits for before it begins
-        try:
-            return simulate(one.case.with_horizon(least_horizon or 0.0), report)
-        except (ContactError, ConvergenceError) as error:
-            report(1.0)
-            return error
-
-    with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
-        runs = {one.name: pool.submit(_run, one) for one in drive.sprockets}
-        try:
-            ended, _ = wait(runs.values(), return_when=FIRST_EXCEPTION)
-        finally:
-            given_up.set()  # the user has stopped them
-        ends = {name: run.result() for name, run in runs.items() if run in ended}
-    results = {name: end for name, end in ends.items() if isinstance(end, WearResult)}
-    failed = {name: end for name, end in ends.items() if isinstance(end, WearsimError)}
-    found = DriveLife(drive, results, failed)
-    return found if results else found.complete()

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.catalogue.catalogues import chains
 from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS
+from wearsim.drive.known_drive import Values, is_plain, read_known, shifts_in_words, use_factors
 from wearsim.errors import CaseError, Fault
 from wearsim.quantities import DAYS_OF_YEAR
-from wearsim.study.whole_drive.known_drive import Values, is_plain, read_known, shifts_in_words, use_factors
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
-    from wearsim.study.whole_drive.keys import DriveCase
+    from wearsim.drive.drive_case import DriveCase
 
 _UNITS = {"power": "kW", "rpm": "rpm", "centre": "mm"}
 """Units of the case."""
@@ -52,7 +52,7 @@ def start_text(typed: Mapping[str, str | None]) -> str:
         for name, unit in _UNITS.items()
         if values[name] is not None
     }
-    template = Path(__file__).with_name("templates") / "drive_start.toml"
+    template = Path(__file__).with_name("drive_start.toml")
     shown = _shown(values, amounts, _loaded(values))
     return _aligned(template.read_text(encoding="utf-8").format(**shown))
 
@@ -60,7 +60,7 @@ def start_text(typed: Mapping[str, str | None]) -> str:
 def _loaded(values: Values) -> "DriveCase":
     """Return the drive, or raise its faults at the options that they come from."""
     from wearsim.chain.standard_teeth import standard_form
-    from wearsim.study.whole_drive.keys import load_drive
+    from wearsim.drive.load_case import load_drive
 
     factors, form = use_factors(values), standard_form(chains()[values["chain"]])
     lengths = {"centre_distance_mm": values["centre"], "links": values["links"]}
@@ -105,7 +105,7 @@ def _as_typed(value: float, text: str | None, unit: str) -> str:
 
 def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> dict[str, Any]:
     """Return what the template shows."""
-    from wearsim.study.whole_drive.keys import LONGEST, SERVICE_YEARS
+    from wearsim.drive.read import LONGEST, SERVICE_YEARS
 
     factors, (condition, oil) = use_factors(values), LUBRICATIONS[values["lubrication"]]
     case = drive.driver.case

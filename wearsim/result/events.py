@@ -8,8 +8,8 @@ import numpy as np
 
 from wearsim.geometry.profile_points import Vector
 from wearsim.quantities import grouped
-from wearsim.report.service import service_measures
 from wearsim.result import Life, LowerBound
+from wearsim.result.service import service_measures
 
 BEDDING_IN_HOURS = 20.0
 """Running time in which a new chain beds in by up to 0.1 %, which no life counts (Tsubaki)."""

@@ -2,27 +2,14 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 from typing import Any
 
-from wearsim.case.input_lines import input_lines
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import USUAL_CONDITION
-from wearsim.errors import CaseError, Fault
-from wearsim.input.changes import changed
-from wearsim.input.document import CaseSource, Document, GivenInput, read_document
-from wearsim.input.faults import Faults
-from wearsim.input.mechanism_registry import MECHANISMS
-from wearsim.kernels.compiled import expect
-from wearsim.mechanisms.wrap.build import read
-from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad, wrap_drive
-from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
-from wearsim.notebook import html_rows, one_line
-from wearsim.quantities import DAYS_OF_YEAR
-from wearsim.study.whole_drive.refused_keys import GIVEN_BY_WHEELS, check_prices, check_tables, table_of
-from wearsim.study.whole_drive.said_of_sprockets import said_of_sprockets
-from wearsim.study.whole_drive.wheels import (
+from wearsim.drive.drive_case import DriveCase, DriveSprocket
+from wearsim.drive.refused_keys import GIVEN_BY_WHEELS, check_prices, check_tables, table_of
+from wearsim.drive.wheels import (
     DRIVEN,
     DRIVER,
     IDLER,
@@ -33,6 +20,13 @@ from wearsim.study.whole_drive.wheels import (
     plain_number,
     power_shares,
 )
+from wearsim.errors import CaseError, Fault
+from wearsim.input.document import Document
+from wearsim.input.faults import Faults
+from wearsim.mechanisms.wrap.build import read
+from wearsim.mechanisms.wrap.drive import WrapLoad, wrap_drive
+from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
+from wearsim.quantities import DAYS_OF_YEAR
 
 SERVICE_YEARS, LONGEST = 100.0, 7e4
 """Years of service, and hours, after which the runs of a drive with [service] end that gives no horizon.
@@ -48,130 +42,8 @@ _GIVES_LINKS = "centre_distance_mm"
 """Key of [drive] from which the links follow."""
 
 
-@dataclass(frozen=True)
-class DriveSprocket:
-    """A sprocket of a drive."""
-
-    name: str  # as the user calls it, with its teeth where it is a cog of a cassette
-    role: str  # `driver`, `driven` or `idler`
-    case: Case  # of this sprocket alone
-
-    @property
-    def drive(self) -> WrapDrive:
-        """Sprocket and chain."""
-        assert isinstance(self.case.drive, WrapDrive)
-        return self.case.drive
-
-
-@dataclass(frozen=True)
-class DriveCase:
-    """A drive whose sprockets share one chain.
-
-    Attributes
-    ----------
-    name : str
-        Stem of the file, or ``case``.
-    title : str
-        What it is about.
-    inputs : mapping
-        Tables of the file.
-    sprockets : tuple of DriveSprocket
-        In the order of the file, each with the ``case`` of it alone.
-    wheels : tuple of DriveWheel
-        In the order of the file, which is that of the chain; a cassette is one.
-    given : GivenInput
-        What it was read from.
-    """
-
-    name: str  # stem of its file
-    title: str  # of the file, or what is driven by what
-    inputs: Mapping[str, Any]  # tables of the file
-    sprockets: tuple[DriveSprocket, ...]  # in the order of the file, each cog of a cassette for itself
-    wheels: tuple[DriveWheel, ...]  # in the order of the file, which is that of the chain
-    given: GivenInput  # what it was read from
-
-    def __repr__(self) -> str:
-        return one_line("DriveCase", self.title, ", ".join(one.name for one in self.sprockets))
-
-    def _repr_html_(self) -> str:
-        return html_rows(self.title, input_lines(self.inputs, self.assumptions, self.warnings))
-
-    def with_(self, changes: Mapping[str, Any]) -> "DriveCase":
-        """Return the drive with other values of some keys, read anew.
-
-        Parameters
-        ----------
-        changes : mapping
-            As for `Case.with_`; ``"sprocket.2.teeth"`` is a key of the second sprocket.
-
-        Returns
-        -------
-        DriveCase
-            Complete as if it had been written so; its title tells the changes.
-
-        Raises
-        ------
-        CaseError
-            What is wrong with it then.
-        """
-        return load_drive(changed(self.given, changes))
-
-    @property
-    def driver(self) -> DriveSprocket:
-        """The sprocket that drives the chain."""
-        return next(one for one in self.sprockets if one.role == DRIVER)
-
-    @property
-    def files(self) -> tuple[Path, ...]:
-        """Files that the sprockets name."""
-        return tuple(path for one in self.sprockets for path in one.case.files)
-
-    @property
-    def assumptions(self) -> tuple[str, ...]:
-        """What is taken for granted, each once with the sprockets that it is about."""
-        return said_of_sprockets({one.name: one.case.assumptions for one in self.sprockets}, self.wheels)
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What is doubtful before a run, each once with the sprockets that it is about."""
-        return said_of_sprockets({one.name: one.case.warnings for one in self.sprockets}, self.wheels)
-
-
-def chain_case(case: Case | DriveCase) -> Case:
-    """Return the case of a chain: of a whole drive that of its driver, under the title of the drive."""
-    if isinstance(case, Case):
-        return case
-    return replace(
-        case.driver.case,
-        name=case.name,
-        title=case.title,
-        assumptions=case.assumptions,
-        warnings=case.warnings,
-    )
-
-
-def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
-    """Return the drive of an input file, of its text or of a mapping with the same tables.
-
-    Parameters
-    ----------
-    source : path, CaseText or mapping
-        A TOML file with ``[[sprocket]]`` twice or more, its text, or its tables as dictionaries. ``[load]``
-        and ``[[duty]]`` are those of the driver.
-    overrides : sequence of str
-        ``table.key=VALUE``, applied before validation; ``sprocket.2.teeth=57`` sets the second one.
-
-    Returns
-    -------
-    DriveCase
-        A complete case of every sprocket.
-
-    Raises
-    ------
-    CaseError
-        Everything that is wrong with the input, with file and line.
-    """
-    document = read_document(source, overrides)
+def read_drive(document: Document) -> DriveCase:
+    """Return the drive of a document; raises `CaseError` with everything that is wrong with it."""
     check_tables(document)
     wheels = drive_wheels(document)
     document.faults.check()
@@ -181,7 +53,6 @@ def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
     document.faults.check()
     sprockets = _sprockets(document, wheels, shares)
     document.faults.check()
-    expect(MECHANISMS["wrap"].kernels)
     title = document.data.get("title") or _title(wheels, sprockets[0].case)
     assert document.given is not None
     return DriveCase(document.name, title, document.data, tuple(sprockets), tuple(wheels), document.given)

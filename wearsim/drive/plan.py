@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from wearsim.study.whole_drive.renewal import SAME, SAVES, Cycle, cheapest_cycle, cycles_in_life, fewest_stops
+from wearsim.drive.renewal import SAME, SAVES, Cycle, cheapest_cycle, cycles_in_life, fewest_stops
 
 CHAIN = "chain"
 

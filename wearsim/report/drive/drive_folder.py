@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import tomlkit
 
+from wearsim.drive.drive_result import DriveLife
 from wearsim.files import new_folder
-from wearsim.study.whole_drive.model import DriveLife
-from wearsim.study.whole_drive.sheet import drive_json
+from wearsim.report.drive.sheet import drive_json
 
 if TYPE_CHECKING:
-    import pandas as pd
+    pass
 
 _INPUTS = "inputs"
 _FILES = ("points_file", "dxf_file")
@@ -25,7 +25,7 @@ def write_drive(found: DriveLife, folder: Path, force: bool) -> None:
         (place / "drive.json").write_text(text + "\n", encoding="utf-8")
         (place / "drive.lock.toml").write_text(_lock(found, place), encoding="utf-8")
         for name in ("history", "flank"):
-            _table(found, f"{name}_columns").to_csv(place / f"{name}.csv", index=False)
+            getattr(found, name).to_csv(place / f"{name}.csv", index=False)
 
 
 def _lock(found: DriveLife, place: Path) -> str:
@@ -55,15 +55,3 @@ def _kept(place: Path, name: str, text: str) -> str:
     (place / _INPUTS).mkdir(exist_ok=True)
     (place / _INPUTS / name).write_text(text, encoding="utf-8", errors="surrogateescape")
     return f"{_INPUTS}/{name}"
-
-
-def _table(found: DriveLife, name: str) -> "pd.DataFrame":
-    """Return the tables of all sprockets below each other, with their names in the first column."""
-    import pandas as pd
-
-    tables = []
-    for sprocket, result in found.results.items():
-        table = pd.DataFrame(getattr(result, name))
-        table.insert(0, "sprocket", sprocket)
-        tables.append(table)
-    return pd.concat(tables, ignore_index=True)

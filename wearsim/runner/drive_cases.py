@@ -5,15 +5,17 @@ from dataclasses import replace
 from typing import Any
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_result import CHAIN
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
+from wearsim.drive.maintenance import part_lives
+from wearsim.drive.wheels import wheel_name
 from wearsim.errors import CaseError, Fault, WearsimError
 from wearsim.input.document import CaseSource
 from wearsim.result import Life
 from wearsim.runner.case_kind import ONE_SPROCKET, CaseKind
 from wearsim.simulation.batch_lives import CaseLife
-from wearsim.study.whole_drive.keys import DriveCase, load_drive
-from wearsim.study.whole_drive.maintenance import part_lives
-from wearsim.study.whole_drive.model import CHAIN, drive_life
-from wearsim.study.whole_drive.wheels import wheel_name
 
 
 def kind_of(tables: Mapping[str, Any]) -> CaseKind:

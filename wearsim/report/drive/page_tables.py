@@ -6,18 +6,18 @@ from typing import Any
 
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
 from wearsim.chain.loop_layout import LoopLayout
+from wearsim.drive.drive_case import DriveCase, DriveSprocket
+from wearsim.drive.drive_result import DriveLife
+from wearsim.drive.maintenance import DrivePlan
+from wearsim.drive.wheels import DriveWheel
 from wearsim.errors import CaseError, GeometryError
 from wearsim.mechanisms.wrap.drive import PRESSURE_SPEED, JointInput
 from wearsim.quantities import grouped
-from wearsim.report.answer import hours
-from wearsim.report.service import service_measures
+from wearsim.report.drive.layout import layout_json
+from wearsim.report.drive.sheet import part_ending
 from wearsim.result import Life, LowerBound
-from wearsim.study.whole_drive.keys import DriveCase, DriveSprocket
-from wearsim.study.whole_drive.layout import layout_json
-from wearsim.study.whole_drive.maintenance import DrivePlan
-from wearsim.study.whole_drive.model import DriveLife
-from wearsim.study.whole_drive.sheet import part_ending
-from wearsim.study.whole_drive.wheels import DriveWheel
+from wearsim.result.lives import hours
+from wearsim.result.service import service_measures
 
 
 @dataclass(frozen=True)

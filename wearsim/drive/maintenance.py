@@ -4,13 +4,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_result import CHAIN, DriveLife
+from wearsim.drive.plan import STOPS, Prices, ReplacementRule, Stop, cheapest, replacement_rules
+from wearsim.drive.renewal import SAME, least_cost_rate
 from wearsim.input.schema import MaintenanceTable
 from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.result import Life, LowerBound
-from wearsim.study.whole_drive.keys import DriveCase
-from wearsim.study.whole_drive.model import CHAIN, DriveLife
-from wearsim.study.whole_drive.plan import STOPS, Prices, ReplacementRule, Stop, cheapest, replacement_rules
-from wearsim.study.whole_drive.renewal import SAME, least_cost_rate
 
 CONVENTIONS = (
     "replacement parts last as long as the originals",

@@ -1,0 +1,119 @@
+"""A drive with all of its sprockets, each of them with a case of its own."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from wearsim.case.input_lines import input_lines
+from wearsim.case.model import Case
+from wearsim.drive.said_of_sprockets import said_of_sprockets
+from wearsim.drive.wheels import DRIVER, DriveWheel
+from wearsim.input.changes import changed
+from wearsim.input.document import GivenInput, read_document
+from wearsim.input.mechanism_registry import read_case
+from wearsim.mechanisms.wrap.drive import WrapDrive
+from wearsim.notebook import html_rows, one_line
+
+
+@dataclass(frozen=True)
+class DriveSprocket:
+    """A sprocket of a drive."""
+
+    name: str  # as the user calls it, with its teeth where it is a cog of a cassette
+    role: str  # `driver`, `driven` or `idler`
+    case: Case  # of this sprocket alone
+
+    @property
+    def drive(self) -> WrapDrive:
+        """Sprocket and chain."""
+        assert isinstance(self.case.drive, WrapDrive)
+        return self.case.drive
+
+
+@dataclass(frozen=True)
+class DriveCase:
+    """A drive whose sprockets share one chain.
+
+    Attributes
+    ----------
+    name : str
+        Stem of the file, or ``case``.
+    title : str
+        What it is about.
+    inputs : mapping
+        Tables of the file.
+    sprockets : tuple of DriveSprocket
+        In the order of the file, each with the ``case`` of it alone.
+    wheels : tuple of DriveWheel
+        In the order of the file, which is that of the chain; a cassette is one.
+    given : GivenInput
+        What it was read from.
+    """
+
+    name: str  # stem of its file
+    title: str  # of the file, or what is driven by what
+    inputs: Mapping[str, Any]  # tables of the file
+    sprockets: tuple[DriveSprocket, ...]  # in the order of the file, each cog of a cassette for itself
+    wheels: tuple[DriveWheel, ...]  # in the order of the file, which is that of the chain
+    given: GivenInput  # what it was read from
+
+    def __repr__(self) -> str:
+        return one_line("DriveCase", self.title, ", ".join(one.name for one in self.sprockets))
+
+    def _repr_html_(self) -> str:
+        return html_rows(self.title, input_lines(self.inputs, self.assumptions, self.warnings))
+
+    def with_(self, changes: Mapping[str, Any]) -> "DriveCase":
+        """Return the drive with other values of some keys, read anew.
+
+        Parameters
+        ----------
+        changes : mapping
+            As for `Case.with_`; ``"sprocket.2.teeth"`` is a key of the second sprocket.
+
+        Returns
+        -------
+        DriveCase
+            Complete as if it had been written so; its title tells the changes.
+
+        Raises
+        ------
+        CaseError
+            What is wrong with it then.
+        """
+        found: DriveCase = read_case(read_document(changed(self.given, changes), ()))
+        return found
+
+    @property
+    def driver(self) -> DriveSprocket:
+        """The sprocket that drives the chain."""
+        return next(one for one in self.sprockets if one.role == DRIVER)
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """Files that the sprockets name."""
+        return tuple(path for one in self.sprockets for path in one.case.files)
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What is taken for granted, each once with the sprockets that it is about."""
+        return said_of_sprockets({one.name: one.case.assumptions for one in self.sprockets}, self.wheels)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful before a run, each once with the sprockets that it is about."""
+        return said_of_sprockets({one.name: one.case.warnings for one in self.sprockets}, self.wheels)
+
+
+def chain_case(case: Case | DriveCase) -> Case:
+    """Return the case of a chain: of a whole drive that of its driver, under the title of the drive."""
+    if isinstance(case, Case):
+        return case
+    return replace(
+        case.driver.case,
+        name=case.name,
+        title=case.title,
+        assumptions=case.assumptions,
+        warnings=case.warnings,
+    )

@@ -1,0 +1,1 @@
+"""The answer about a drive: as text, JSON, tables, pages and a folder."""

@@ -1,1 +1,0 @@
-"""How long every sprocket of a drive and its one chain live."""
