@@ -67,7 +67,7 @@ def main() -> None:
     assert_type(wheel.content("svg"), bytes)
     width = {"sprocket.face_width_mm": {"low": 6.0, "high": 8.0}}
     best = assert_type(wearsim.optimise(strand, width, evaluations=10, threads=1), wearsim.OptimiseResult)
-    assert_type(best.cases, list[wearsim.Case])
+    assert_type(best.cases, list[wearsim.Case | wearsim.DriveCase])
 
 
 def calibrated(case: wearsim.Case | wearsim.DriveCase, readings: pd.DataFrame) -> pd.DataFrame:

@@ -43,7 +43,7 @@ _PUBLIC = {
     "remaining": "wearsim.python.remaining",
     "select": "wearsim.python.select",
     "simulate": "wearsim.python.simulate",
-    "simulate_many": "wearsim.simulation.batch_lives",
+    "simulate_many": "wearsim.drive.simulate",
     "sweep": "wearsim.python.sweep",
     "uncertainty": "wearsim.python.uncertainty",
 }
@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from wearsim.drive.drive_case import DriveCase
     from wearsim.drive.drive_result import DriveLife
     from wearsim.drive.load_case import load_case
+    from wearsim.drive.simulate import simulate_many
     from wearsim.errors import CaseError, ContactError, ConvergenceError, GeometryError, WearsimError
     from wearsim.python.calibrate import CalibrationResult, calibrate
     from wearsim.python.chain_readings import ChainReadingsResult
@@ -73,7 +74,6 @@ if TYPE_CHECKING:
     from wearsim.python.sweep import SweepResult, sweep
     from wearsim.python.uncertainty import UncertaintyResult, uncertainty
     from wearsim.result import Life, LowerBound, WearResult
-    from wearsim.simulation.batch_lives import simulate_many
 
 __all__ = [
     "CalibrationResult",

@@ -14,7 +14,6 @@ from wearsim.errors import CaseError
 from wearsim.input.schema import MaintenanceTable
 from wearsim.report.answer import answer
 from wearsim.result import Life, LowerBound
-from wearsim.result.service import life_json
 from wearsim.simulation.wear_task import wear_law
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy, cost_per_1000_hours, maintain
 from wearsim.study.maintain.reversed_sprocket import reversed_life
@@ -343,13 +342,13 @@ def test_life_in_other_measures(life, key, value, shown):
     result = copy.copy(life)
     object.__setattr__(result, "inputs", {**life.inputs, "service": given})
     hours = life.life.hours
-    found = life_json(result)["service"][shown]
+    found = result.summary()["service"][shown]
     if key == "start_date":
         assert found == str(np.datetime64("2026-01-01") + np.timedelta64(int(hours / 8.0), "D"))
     else:
         assert found == pytest.approx(hours / 8.0 if shown == "days" else hours * value)
     assert "In service" in answer(result, "drive.toml")
-    assert "service" not in life_json(life)
+    assert "service" not in life.summary()
 
 
 def test_plan_is_what_the_report_takes(plan):

@@ -411,6 +411,10 @@ class Case:
         found: Case = read_case(document)
         return found
 
+    def check(self) -> None:
+        """Raise `CaseError` where the drive cannot run: a chain that jumps on new teeth."""
+        self.drive.check(self)
+
     def with_horizon(self, hours: float) -> "Case":
         """Return the case with a horizon of at least so many hours, for a life that is required.
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from wearsim.command.cases_and_runs import results_of
+from wearsim.command.cases_and_runs import loaded_sources, one_sprocket
 from wearsim.command.complete import RunPath
 from wearsim.command.options import common_options, finite, overrides, sprocket_option, working, worn
 from wearsim.command.single_file import check_place, format_of, write_content
@@ -76,13 +76,11 @@ def animate(
             f"--seconds: must leave every frame {_SHORTEST_S:g} s at least, {frames} frames "
             f"{_SHORTEST_S * frames:g} s (got {seconds:g}): give more seconds or fewer --frames"
         )
-    from wearsim.command.whole_drives import is_drive, load_one
     from wearsim.report.animation import animation
+    from wearsim.result import WearResult
 
-    if sprocket is not None or is_drive(source):
-        result = worn(load_one(source, settings, sprocket))
-    else:
-        (result,) = results_of((source,), settings, False).values()
+    (loaded,) = loaded_sources((source,), settings, False).values()
+    result = loaded if isinstance(loaded, WearResult) else worn(one_sprocket(loaded, source, sprocket))
 
     with working(f"drawing {frames} frames"):
         content = animation(result, kind, frames, seconds, width)

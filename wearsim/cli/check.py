@@ -17,23 +17,14 @@ from wearsim.command.options import common_options, load_cases, overrides
 @common_options
 def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> None:
     """Check each CASE (.toml): keys, files, feasible geometry, ratings; say what it assumes."""
-    from wearsim.command.whole_drives import are_drives, checked
-
-    if are_drives(cases):
-        checked(cases, settings, as_json)
-        return
     loaded = load_cases(cases, settings, as_json)
-    from wearsim.report.rating import check_assumptions, check_json, check_warnings, notes_text, rating_table
+    from wearsim.drive.drive_case import single_cases
+    from wearsim.report.check import check_json, check_text
 
     for path, case in zip(cases, loaded, strict=True):
         if as_json:
             click.echo(json.dumps(check_json(case), ensure_ascii=False))
             continue
-        click.echo(f"{path}: ok")
-        for text in check_assumptions(case):
-            click.echo(f"  assumes  {text}")
-        for text in (rating_table(case), notes_text(case)):
-            if text:
-                show(text)
-        for text in check_warnings(case):
-            show(f"  warning  {text}")
+        names = single_cases(case)
+        sprockets = f", sprockets {', '.join(names)}" if len(names) > 1 else ""
+        show(check_text(case, f"{path}: ok{sprockets}"))

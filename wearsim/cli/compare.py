@@ -1,15 +1,28 @@
 """``wearsim compare``: several lives side by side, with pictures."""
 
-import json
+from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.cases_and_runs import results_of
+from wearsim.command.cases_and_runs import loaded_sources, results_of
 from wearsim.command.colours import show
 from wearsim.command.complete import RunPath
-from wearsim.command.options import SOME_FAILED, common_options, overrides, warn
+from wearsim.command.options import (
+    SOME_FAILED,
+    common_options,
+    overrides,
+    print_json,
+    show_failed_parts,
+    warn,
+)
 from wearsim.command.single_file import check_workbook, workbook_option, write_workbook
+
+if TYPE_CHECKING:
+    from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
+    from wearsim.result import WearResult
 
 
 @click.command(short_help="Several lives side by side: tables and pictures.")
@@ -37,35 +50,46 @@ def compare(
     Whole drives, [[sprocket]] twice, are compared part by part: lives, what is replaced first,
     ratings, cost.
     """
-    from wearsim.command.whole_drives import are_drives, compared
-
-    if are_drives(sources):
-        if xlsx is not None:
-            raise click.UsageError("whole drives take no --xlsx here: wearsim life writes their workbook")
-        return compared(sources, settings, as_json, out, force)
     check_workbook(out, xlsx, force)
     if out is not None:
         from wearsim.files import check_folder
 
         check_folder(out, force)
-    found = results_of(sources, settings, as_json)
-    from wearsim.report.comparison import comparison_text, differing_limits, distinct
+    loaded = loaded_sources(sources, settings, as_json)
+    _check_alike(loaded.values())
+    found = results_of(loaded, as_json)
+    from wearsim.drive.drive_result import DriveLife
+    from wearsim.report.comparison import comparison_text, differing_limits, distinct, save_comparison
+    from wearsim.report.drive.comparison import drives_text, save_drives
 
-    results = distinct(list(found.values()), [str(path) for path in found])
+    drives = [one for one in found.values() if isinstance(one, DriveLife)]
+    singles = [one for one in found.values() if not isinstance(one, DriveLife)]
+    singles = distinct(singles, [str(path) for path in found])
     if out is not None:
-        from wearsim.report.comparison import save_comparison
-
-        save_comparison(results, out, force)
+        if drives:
+            save_drives(drives, out, force)
+        else:
+            save_comparison(singles, out, force)
         warn(f"written to {out}")
     if as_json:
-        from wearsim.result.service import life_json
-
-        for result in results:
-            click.echo(json.dumps(life_json(result), ensure_ascii=False, allow_nan=False))
+        for path, result in found.items():
+            print_json(result.summary(), path)
     else:
-        show(comparison_text(results))
-    if limits := differing_limits(results):
+        show(drives_text(drives) if drives else comparison_text(singles))
+    if limits := differing_limits(singles):
         warn(f"warning: {limits}")
     if xlsx is not None:
         write_workbook(found, xlsx, force)
-    return SOME_FAILED if len(found) < len(set(sources)) else 0
+    failed = show_failed_parts(found)
+    return SOME_FAILED if failed or len(found) < len(set(sources)) else 0
+
+
+def _check_alike(loaded: "Iterable[Case | DriveCase | WearResult]") -> None:
+    """Raise where whole drives and flanks are to stand in one table."""
+    from wearsim.drive.drive_case import DriveCase
+
+    if len({isinstance(one, DriveCase) for one in loaded}) > 1:
+        raise click.UsageError(
+            "whole drives are compared by their parts, single sprockets and gears by their flanks: compare "
+            "them apart"
+        )

@@ -5,14 +5,15 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.cases_and_runs import check_settings
+from wearsim.command.cases_and_runs import loaded_sources, one_sprocket, titled_cases
 from wearsim.command.complete import RunPath
-from wearsim.command.options import common_options, overrides, sprocket_option, worn
+from wearsim.command.options import common_options, overrides, sprocket_option, warn, working, worn
 from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import OutputError
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
     from wearsim.geometry.wheel_outline import State
     from wearsim.result import WearResult
 
@@ -63,17 +64,20 @@ def export(
     """
     if out is None and template is None:
         raise click.UsageError("give --out FILE, --template FILE or both")
-    if out is not None and sprocket is None and _takes_all(source, out):
+    from wearsim.drive.drive_case import DriveCase
+
+    (loaded,) = loaded_sources((source,), settings, False).values()
+    if out is not None and sprocket is None and isinstance(loaded, DriveCase) and _is_folder(out):
         if template is not None:
             raise click.UsageError("--template is the gauge of one sprocket: give --sprocket NAME")
-        _export_all(source, settings, out, form or _FORMATS[0], state or "new", force)
+        _export_all(loaded, out, form or _FORMATS[0], state or "new", force)
         return
     places = [path for path in (out, template) if path is not None and str(path) != "-"]
     _check_places(places, source, force)
     kind = None if out is None else format_of(out, form, _FORMATS, "--format")
     gauge = None if template is None else format_of(template, None, _GAUGES, ".pdf")
     _check_step(kind)
-    case, result = _loaded(source, settings, sprocket)
+    case, result = _wheel(loaded, source, sprocket)
     shown = state or ("new" if result is None else "both")
     states = _STATES[shown]
     _check_states(kind, states)
@@ -94,22 +98,29 @@ def export(
         write_content(path, data, force)
 
 
-def _takes_all(source: Path, out: Path) -> bool:
-    """Tell whether a place is a folder for all wheels of a whole drive, and no file by its ending."""
-    from wearsim.command.whole_drives import is_drive
-
-    no_file = str(out) != "-" and out.suffix.lower() not in (*(f".{name}" for name in _FORMATS), ".stp")
-    return no_file and not source.is_dir() and is_drive(source)
+def _is_folder(out: Path) -> bool:
+    """Tell whether a place is a folder for all wheels of a drive, and no file by its ending."""
+    return str(out) != "-" and out.suffix.lower() not in (*(f".{name}" for name in _FORMATS), ".stp")
 
 
-def _export_all(
-    source: Path, settings: tuple[str, ...], out: Path, form: str, state: str, force: bool
-) -> None:
-    from wearsim.command.whole_drives import export_wheels
+def _export_all(drive: "DriveCase", out: Path, form: str, state: str, force: bool) -> None:
+    """Write the wheels of all sprockets of a drive into a folder, each cog of a cassette for itself."""
+    from wearsim.cad.wheel_formats import export as content
+    from wearsim.drive.life import drive_life
+    from wearsim.files import check_folder, file_names, new_folder
 
+    states = _STATES[state]
     _check_step(form)
-    _check_states(form, _STATES[state])
-    export_wheels(source, settings, out, form, _STATES[state], force)
+    _check_states(form, states)
+    check_folder(out, force)
+    cases, results = titled_cases(drive), {}
+    if "worn" in states:
+        with working(f"wearing {drive.title}") as report_progress:
+            results = drive_life(drive, report_progress).complete().results
+    with new_folder(out, force) as place:
+        for file, (name, case) in zip(file_names(list(cases)), cases.items(), strict=True):
+            (place / f"{file}.{form}").write_bytes(content(case, results.get(name), states, form))
+    warn(f"written to {out}: {len(cases)} wheels")
 
 
 def _check_step(kind: str | None) -> None:
@@ -138,19 +149,18 @@ def _check_places(places: list[Path], source: Path, force: bool) -> None:
         raise OutputError(f"{places[0]}: must not be both --out and --template: choose two places")
 
 
-def _loaded(
-    source: Path, settings: tuple[str, ...], sprocket: str | None
+def _wheel(
+    loaded: "Case | DriveCase | WearResult", source: Path, sprocket: str | None
 ) -> "tuple[Case, WearResult | None]":
-    """Return a case, and its run where the folder of one is given."""
-    if not source.is_dir() or sprocket is not None:
-        from wearsim.command.whole_drives import load_one
+    """Return the case of a wheel, and its run where the folder of one is given."""
+    from wearsim.result import WearResult
 
-        return load_one(source, settings, sprocket, or_else=", or --out FOLDER alone for all wheels"), None
-    check_settings([source], settings)
+    if not isinstance(loaded, WearResult):
+        return one_sprocket(loaded, source, sprocket, ", or --out FOLDER alone for all wheels"), None
+    if sprocket is not None:
+        raise click.UsageError(f"--sprocket belongs to a whole drive, but {source} is a run: leave it out")
     from dataclasses import replace
 
     from wearsim.report.flank_view import case_of
-    from wearsim.result import WearResult
 
-    result = WearResult.load(source)
-    return replace(case_of(result), name=result.case, title=result.title), result
+    return replace(case_of(loaded), name=loaded.case, title=loaded.title), loaded

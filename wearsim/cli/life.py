@@ -19,6 +19,7 @@ from wearsim.command.options import (
     overrides,
     print_json,
     show_error,
+    show_failed_parts,
     warn,
     working,
     worn,
@@ -26,8 +27,13 @@ from wearsim.command.options import (
 from wearsim.command.single_file import check_workbook, workbook_option, write_workbook
 from wearsim.errors import WearsimError
 
+SPROCKET = "sprocket"
+"""Name of the only one of a case."""
+
 if TYPE_CHECKING:
     from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
+    from wearsim.drive.drive_result import DriveLife
     from wearsim.result import WearResult
     from wearsim.wear.accuracy import GridStudy
 
@@ -82,9 +88,10 @@ def life(
     strict: bool,
     settings: tuple[str, ...],
 ) -> int:
-    """Print how long the sprocket of each CASE (.toml) lives, and how sure that is.
+    """Print how long the parts of each CASE (.toml) live, and how sure that is.
 
-    A CASE with [[sprocket]] twice is a whole drive: chain and all sprockets on one clock.
+    A CASE is one sprocket, a pair of gears, or with [[sprocket]] twice a whole drive: chain and all
+    sprockets on one clock.
 
     With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
     flank.csv; for several cases, DIR/<file stem> does. A workbook holds all cases. That of a
@@ -92,16 +99,6 @@ def life(
     """
     if method is not None:
         settings = (*settings, f"run.method={method}")
-    if _are_drives(cases):
-        if parquet or key or verify_grid:
-            raise click.UsageError(
-                "a drive with [[sprocket]] takes neither --parquet, --solve-for nor --verify-grid"
-            )
-        from wearsim.command.whole_drives import live
-
-        check_workbook(out, xlsx, force)
-        folders = _folders(cases, out, force)
-        return live(cases, settings, folders, xlsx, force, as_json, require_hours, strict, explain)
     if key is not None:
         if verify_grid or explain or strict or parquet or xlsx:
             raise click.UsageError(
@@ -114,13 +111,13 @@ def life(
     if require_hours is not None:
         loaded = [case.with_horizon(require_hours) for case in loaded]
     folders = _folders(cases, out, force)
-    results: dict[Path, WearResult] = {}
+    results: dict[Path, WearResult | DriveLife] = {}
     failures: list[WearsimError] = []
     missed = False
     for path, case, folder in zip(cases, loaded, folders, strict=True):
         try:
             result = _run(case, folder, force, parquet)
-            grid = _verified(case) if verify_grid else None
+            grids = _verified(case) if verify_grid else {}
         except WearsimError as error:
             if len(loaded) == 1 and not as_json:
                 raise
@@ -129,20 +126,16 @@ def life(
                 click.echo(error_json(path.stem, error))
             show_error(error, path)
             continue
-        _show(result, grid, path, as_json, explain)
+        _show(result, grids, path, as_json, explain)
         results[path] = result
-        missed = _missed(result, require_hours, strict) or missed
+        missed = _missed(result, path, require_hours, strict) or missed
     if xlsx is not None and results:
         write_workbook(results, xlsx, force)
     if failures:
         return SOME_FAILED if len(failures) < len(loaded) else max(map(exit_code, failures))
+    if show_failed_parts(results):
+        return SOME_FAILED
     return NOT_MET if missed else 0
-
-
-def _are_drives(cases: tuple[Path, ...]) -> bool:
-    from wearsim.command.whole_drives import are_drives
-
-    return are_drives(cases)
 
 
 def _solve(
@@ -193,50 +186,48 @@ def _check_parquet(out: Path | None, parquet: bool) -> None:
     pyarrow()
 
 
-def _run(case: "Case", folder: Path | None, force: bool, parquet: bool) -> "WearResult":
+def _run(
+    case: "Case | DriveCase", folder: Path | None, force: bool, parquet: bool
+) -> "WearResult | DriveLife":
     result = worn(case)
     if folder is not None:
         result.save(folder, force, parquet)
     return result
 
 
-def _verified(case: "Case") -> "GridStudy":
+def _verified(case: "Case | DriveCase") -> "dict[str, GridStudy]":
+    """Return the studies of three grids of all sprockets by their names."""
+    from wearsim.drive.drive_case import single_cases
     from wearsim.simulation import verify_grid
 
     with working(f"verifying the grid of {case.title}"):
-        return verify_grid(case)
+        return {name: verify_grid(one) for name, one in single_cases(case).items()}
 
 
-def _show(result: "WearResult", grid: "GridStudy | None", path: Path, as_json: bool, explain: bool) -> None:
+def _show(
+    result: "WearResult | DriveLife", grids: "dict[str, GridStudy]", path: Path, as_json: bool, explain: bool
+) -> None:
+    from wearsim.report.answer import answer, grid_json, grid_text
+
     if as_json:
-        from wearsim.result.service import life_json
-
-        content = life_json(result)
-        if grid is not None:
-            from wearsim.report.answer import grid_json
-
-            content["grid"] = grid_json(grid)
-        print_json(content, path, result.warnings)
-    else:
-        from wearsim.report.answer import answer, grid_text
-
-        show(answer(result, str(path), explain))
-        if grid is not None:
-            from wearsim.report.answer import grid_text
-
-            show(grid_text(grid))
+        studies = {name: grid_json(grid) for name, grid in grids.items()}
+        grid = {"grid": studies.get(SPROCKET, studies)} if studies else {}
+        print_json({**result.summary(), **grid}, path, result.warnings)
+        return
+    show(answer(result, str(path), explain))
+    for name, grid_study in grids.items():
+        show(grid_text(grid_study, "" if name == SPROCKET else name))
 
 
-def _missed(result: "WearResult", require_hours: float | None, strict: bool) -> bool:
+def _missed(result: "WearResult | DriveLife", path: Path, require_hours: float | None, strict: bool) -> bool:
     from wearsim.result import Life
 
     missed = False
-    for name, life in {"": result.life, **result.fatigue}.items():
+    for what, life in result.named_lives.items():
         if require_hours is not None and isinstance(life, Life) and life.hours < require_hours:
-            what = f"{name.replace('_', ' ')} life".lstrip()
-            warn(f"{result.case}: {what} {life.hours:.6g} h is below {require_hours:g} h")
+            warn(f"{path.stem}: {what} {life.hours:.6g} h is below {require_hours:g} h")
             missed = True
     if strict and result.warnings:
-        warn(f"{result.case}: {len(result.warnings)} warning(s) and --strict")
+        warn(f"{path.stem}: {len(result.warnings)} warning(s) and --strict")
         missed = True
     return missed

@@ -1,13 +1,21 @@
 """``wearsim loads``: what each tooth of a wrapped sprocket carries."""
 
-import json
 from pathlib import Path
 
 import click
 
+from wearsim.command.cases_and_runs import one_sprocket
 from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, finite, overrides, sprocket_option, warn
+from wearsim.command.options import (
+    common_options,
+    finite,
+    load_cases,
+    overrides,
+    print_json,
+    sprocket_option,
+    warn,
+)
 
 
 @click.command(short_help="Tension, force and place of each roller in the wrap.")
@@ -48,19 +56,18 @@ def loads(
     """
     if worst and phase is not None:
         raise click.UsageError("--worst looks at all phases: give --phase or --worst, not both")
-    from wearsim.command.whole_drives import is_drive, load_one, loaded_teeth
+    from wearsim.drive.drive_case import single_cases
     from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
-    from wearsim.report.loads_table import loads_json, loads_table
+    from wearsim.report.drive.layout import loads_json_of, loads_text
 
+    (loaded,) = load_cases([case], settings, as_json)
+    if sprocket is not None:
+        loaded = one_sprocket(loaded, case, sprocket)
     part = None if worst else 1.0 if phase is None else phase
-    if sprocket is None and is_drive(case):
-        loaded_teeth(case, settings, as_json, 0.01 * elongation, part)
-        return
-    loaded = load_one(case, settings, sprocket, as_json)
-    found = tooth_loads(loaded, 0.01 * elongation, part)
+    teeth = {name: tooth_loads(one, 0.01 * elongation, part) for name, one in single_cases(loaded).items()}
     if as_json:
-        click.echo(json.dumps(loads_json(found), ensure_ascii=False, allow_nan=False))
-    else:
-        show(loads_table(found))
+        print_json(loads_json_of(loaded, teeth), case, loaded.warnings)
+        return
+    show(loads_text(loaded, teeth))
     for text in loaded.warnings:
         warn(f"{case}: warning: {text}")

@@ -4,8 +4,9 @@ from pathlib import Path
 
 import click
 
+from wearsim.command.cases_and_runs import one_sprocket
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, overrides, sprocket_option
+from wearsim.command.options import common_options, load_cases, overrides, sprocket_option
 from wearsim.command.single_file import check_place
 
 
@@ -25,10 +26,10 @@ from wearsim.command.single_file import check_place
 def profile(case: Path, out: Path, force: bool, sprocket: str | None, settings: tuple[str, ...]) -> None:
     """Write the working flank of CASE: points, curvature, pressure angle and evolute."""
     check_place(out, case, force)
-    from wearsim.command.whole_drives import load_one
     from wearsim.report.flank_view import profile_table
 
-    text = profile_table(load_one(case, settings, sprocket)).to_csv(index=False)
+    (loaded,) = load_cases([case], settings, False)
+    text = profile_table(one_sprocket(loaded, case, sprocket)).to_csv(index=False)
     if str(out) == "-":
         click.echo(text, nl=False)
     else:

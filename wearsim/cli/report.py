@@ -1,12 +1,20 @@
 """``wearsim report``: pages for a browser, one for each drive."""
 
+from collections.abc import Mapping
+from datetime import date
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.cases_and_runs import results_of
+from wearsim.command.cases_and_runs import loaded_sources, results_of
 from wearsim.command.complete import RunPath
-from wearsim.command.options import SOME_FAILED, common_options, overrides, warn
+from wearsim.command.options import SOME_FAILED, common_options, overrides, show_failed_parts, warn
+
+if TYPE_CHECKING:
+    from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
+    from wearsim.result import WearResult
 
 
 @click.command(short_help="Pages for a browser: answer, pictures, inputs, sources.")
@@ -51,30 +59,52 @@ def report(
 
     A case with [[sprocket]] twice is a whole drive: one page, a calculation sheet to print on A4.
     """
-    from wearsim.command.whole_drives import are_drives, report_sheet
+    from wearsim.drive.drive_case import DriveCase
     from wearsim.extras import check_installed
     from wearsim.files import check_folder
 
-    if are_drives(sources):
-        if len(sources) > 1:
+    loaded = loaded_sources(sources, settings, False)
+    if any(isinstance(one, DriveCase) for one in loaded.values()):
+        if len(loaded) > 1:
             raise click.UsageError("a drive has a sheet of its own: run wearsim report for each")
         if single_file or detail != "full":
             raise click.UsageError(
                 "a drive with [[sprocket]] takes neither --single-file, as its page is one, nor --detail"
             )
-        report_sheet(sources[0], settings, out, force, project, drawing, author)
-        return 0
+        return _report_drive(loaded, out, force, (project, drawing, author))
     if project or drawing or author:
         raise click.UsageError("--project, --drawing and --author belong to a drive with [[sprocket]]")
     check_installed(("jinja2", "plotly"), "report", "report")
     check_folder(out, force)
-    found = results_of(sources, settings, False)
+    found = results_of(loaded, False)
     from wearsim.report.comparison import differing_limits, distinct
     from wearsim.report.html.page_writer import save_report
+    from wearsim.result import WearResult
 
-    results = distinct(list(found.values()), [str(path) for path in found])
+    singles = [one for one in found.values() if isinstance(one, WearResult)]
+    results = distinct(singles, [str(path) for path in found])
     for page in save_report(results, out, force, single_file, detail):
         click.echo(out / page)
     if limits := differing_limits(results):
         warn(f"warning: {limits}")
     return SOME_FAILED if len(found) < len(set(sources)) else 0
+
+
+def _report_drive(
+    loaded: "Mapping[Path, Case | DriveCase | WearResult]", out: Path, force: bool, head: tuple[str, str, str]
+) -> int:
+    """Write the sheet of a drive, and print where it stands."""
+    from wearsim.drive.drive_result import DriveLife
+    from wearsim.extras import check_installed
+    from wearsim.files import check_folder
+
+    check_installed(("jinja2",), "report", "report")
+    from wearsim.report.drive.report_page import SheetHead, check_page, is_page, save_sheet
+
+    (check_page if is_page(out) else check_folder)(out, force)
+    found = results_of(loaded, False)
+    project, drawing, author = head
+    for result in found.values():
+        assert isinstance(result, DriveLife)
+        click.echo(save_sheet(result, SheetHead(date.today(), project, author, drawing), out, force))
+    return SOME_FAILED if show_failed_parts(found) else 0

@@ -7,7 +7,7 @@ import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import click
 
@@ -17,6 +17,8 @@ from wearsim.errors import CaseError, Fault, GeometryError, OutputError, Wearsim
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
+    from wearsim.drive.drive_result import DriveLife
     from wearsim.result import WearResult
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -96,9 +98,17 @@ def working(text: str) -> Iterator[Callable[[float], None]]:
         yield lambda part: bar.update(task, completed=part, total=1.0)
 
 
-def worn(case: "Case") -> "WearResult":
+@overload
+def worn(case: "Case") -> "WearResult": ...
+
+
+@overload
+def worn(case: "Case | DriveCase") -> "WearResult | DriveLife": ...
+
+
+def worn(case: "Case | DriveCase") -> "WearResult | DriveLife":
     """Run a case and show on a terminal how far it is."""
-    from wearsim.simulation import simulate
+    from wearsim.drive.simulate import simulate
 
     with working(f"wearing {case.title}") as report_progress:
         return simulate(case, report_progress)
@@ -117,6 +127,18 @@ def show_error(error: WearsimError, path: Path | None = None) -> None:
         traceback.print_exception(error)
     else:
         click.echo(f"{path}: {error}" if path else str(error), err=True)
+
+
+def show_failed_parts(results: "Mapping[Path, WearResult | DriveLife]") -> bool:
+    """Show what the runs of single sprockets of drives have failed with; whether there are any."""
+    errors = [
+        (path, f"{name!r}: {error}")
+        for path, result in results.items()
+        for name, error in result.failed.items()
+    ]
+    for path, text in errors:
+        show_error(WearsimError(text), path)
+    return bool(errors)
 
 
 def exit_code(error: WearsimError) -> int:
@@ -138,15 +160,15 @@ def error_json(case: str, error: WearsimError) -> str:
     return json.dumps({"schema_version": 1, "case": case, "error": content}, ensure_ascii=False)
 
 
-def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> "list[Case]":
+def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> "list[Case | DriveCase]":
     """Load all cases before the first one runs; report all faults of all of them."""
-    from wearsim.drive.load_case import load_single
+    from wearsim.drive.load_case import load_case
 
     cases, failed = [], False
     for path in paths:
         try:
-            case = load_single(path, settings)
-            case.drive.check(case)
+            case = load_case(path, settings)
+            case.check()
             cases.append(case)
         except (CaseError, GeometryError) as error:
             failed = True

@@ -1,9 +1,8 @@
 """What commands that write one file share: its place, its ending, stdout for ``-``; and ``--xlsx``."""
 
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -12,6 +11,7 @@ from wearsim.command.options import warn
 from wearsim.errors import OutputError
 
 if TYPE_CHECKING:
+    from wearsim.drive.drive_result import DriveLife
     from wearsim.result import WearResult
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -69,19 +69,23 @@ def check_workbook(out: Path | None, xlsx: Path | None, force: bool) -> None:
     workbook.check_workbook(xlsx, force)
 
 
-def write_workbook(
-    results: "Mapping[Path, WearResult] | Mapping[str, WearResult]",
-    file: Path,
-    force: bool,
-    said: Mapping[str, Sequence[tuple[str, str]]] = MappingProxyType({}),
-) -> None:
+def write_workbook(results: "Mapping[Path, WearResult | DriveLife]", file: Path, force: bool) -> None:
     """Write results into a workbook, with titles that tell them apart, and say where it is.
 
-    Sentences about several of them, each with its label, stand above them under a title.
+    What is found of a whole drive stands above its sprockets.
     """
+    from wearsim.drive.drive_result import DriveLife
     from wearsim.report.comparison import distinct
+    from wearsim.report.drive.sheet import found_rows
     from wearsim.report.workbook import save_workbook
 
-    names = [str(path) for path in results]
-    save_workbook(distinct(list(results.values()), names), file, force, said)
+    sheets: dict[str, WearResult] = {}
+    said = {}
+    for path, result in results.items():
+        if isinstance(result, DriveLife):
+            sheets |= {f"{result.drive.name} {one.case}": one for one in result.titled()}
+            said[result.title] = found_rows(result)
+        else:
+            sheets[str(path)] = result
+    save_workbook(distinct(list(sheets.values()), list(sheets)), file, force, said)
     warn(f"written to {file}")

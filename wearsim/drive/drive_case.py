@@ -9,6 +9,7 @@ from wearsim.case.input_lines import input_lines
 from wearsim.case.model import Case
 from wearsim.drive.said_of_sprockets import said_of_sprockets
 from wearsim.drive.wheels import DRIVER, DriveWheel
+from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput, read_document
 from wearsim.input.mechanism_registry import read_case
@@ -85,6 +86,25 @@ class DriveCase:
         found: DriveCase = read_case(read_document(changed(self.given, changes), ()))
         return found
 
+    def check(self) -> None:
+        """Raise `CaseError` where the drive cannot run; such a drive is not even read."""
+
+    def with_horizon(self, hours: float) -> "DriveCase":
+        """Return the drive with runs that cover at least so many hours, for a life that is required.
+
+        Parameters
+        ----------
+        hours : float
+            Running time [h].
+
+        Returns
+        -------
+        DriveCase
+            As `Case.with_horizon` of every sprocket.
+        """
+        sprockets = tuple(replace(one, case=one.case.with_horizon(hours)) for one in self.sprockets)
+        return replace(self, sprockets=sprockets)
+
     @property
     def driver(self) -> DriveSprocket:
         """The sprocket that drives the chain."""
@@ -106,6 +126,13 @@ class DriveCase:
         return said_of_sprockets({one.name: one.case.warnings for one in self.sprockets}, self.wheels)
 
 
+def single_cases(case: Case | DriveCase) -> dict[str, Case]:
+    """Return the cases of single sprockets by their names; that of one sprocket is ``sprocket``."""
+    if isinstance(case, Case):
+        return {"sprocket": case}
+    return {one.name: one.case for one in case.sprockets}
+
+
 def chain_case(case: Case | DriveCase) -> Case:
     """Return the case of a chain: of a whole drive that of its driver, under the title of the drive."""
     if isinstance(case, Case):
@@ -117,3 +144,15 @@ def chain_case(case: Case | DriveCase) -> Case:
         assumptions=case.assumptions,
         warnings=case.warnings,
     )
+
+
+def with_one_wear(case: Case | DriveCase) -> Case | DriveCase:
+    """Return a case whose [wear] is that of all its sprockets, as a study changes it; a fault on others."""
+    faults = [
+        Fault("must be left out here, where [wear] is that of all: move it there", f"sprocket.{i}.wear")
+        for i, wheel in enumerate(getattr(case, "wheels", ()), start=1)
+        if "wear" in wheel.own
+    ]
+    if faults:
+        raise CaseError([replace(fault, file=case.name) for fault in faults])
+    return case

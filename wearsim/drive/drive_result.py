@@ -118,6 +118,12 @@ class DriveLife:
     def _titled(self) -> list[WearResult]:
         return [replace(result, title=name) for name, result in self.results.items()]
 
+    def titled(self) -> list[WearResult]:
+        """Return the results of the sprockets under names and titles that say which one of what drive."""
+        return [
+            replace(result, case=name, title=f"{self.title}: {name}") for name, result in self.results.items()
+        ]
+
     @property
     def title(self) -> str:
         """What the drive is."""
@@ -127,6 +133,16 @@ class DriveLife:
     def cycles(self) -> float:
         """Loading cycles of the part that ends first; raises where none does."""
         return self.life.cycles
+
+    @property
+    def numerical_error(self) -> float:
+        """The greatest of the stated relative errors of the sprockets' lives."""
+        return max(result.numerical_error for result in self.results.values())
+
+    @property
+    def life_tolerance(self) -> float:
+        """What was asked for."""
+        return self.reference.life_tolerance
 
     @cached_property
     def history(self) -> pd.DataFrame:
@@ -159,7 +175,7 @@ class DriveLife:
         found: dict[str, Any] = import_module(_SHEET).drive_json(self)
         return found
 
-    def save(self, folder: str | Path, force: bool = False) -> None:
+    def save(self, folder: str | Path, force: bool = False, parquet: bool = False) -> None:
         """Write the result into a folder, all of it or nothing.
 
         Parameters
@@ -169,13 +185,22 @@ class DriveLife:
             files of the drive.
         force : bool
             Replace a folder that is there.
+        parquet : bool
+            Write history.parquet and flank.parquet too (extra ``parquet``).
 
         Raises
         ------
         OutputError
             The folder is there, or cannot be written.
+        CaseError
+            pyarrow is not installed, which Parquet needs.
         """
-        import_module(_FOLDER).write_drive(self, Path(folder), force)
+        import_module(_FOLDER).write_drive(self, Path(folder), force, parquet)
+
+    @property
+    def named_lives(self) -> dict[str, Life | LowerBound]:
+        """Lives of all parts by what they are in words."""
+        return {f"life of the {name}": life for name, life in self.parts.items()}
 
     @property
     def chain(self) -> Life | LowerBound:

@@ -18,10 +18,7 @@ class _GivenUpError(Exception):
 
 
 def drive_life(
-    drive: DriveCase,
-    least_horizon: float | None = None,
-    progress: Callable[[float], None] = lambda part: None,
-    threads: int | None = None,
+    drive: DriveCase, progress: Callable[[float], None] = lambda part: None, threads: int | None = None
 ) -> DriveLife:
     """Wear all sprockets of a drive, each with the chains that run on it.
 
@@ -32,8 +29,6 @@ def drive_life(
     ----------
     drive : DriveCase
         Sprockets and chain.
-    least_horizon : float, optional
-        Hours that the runs cover at least if nothing ends before; above 0.
     progress : callable, optional
         Told how much of the runs is done, from 0 to 1.
     threads : int, optional
@@ -66,7 +61,7 @@ def drive_life(
         report = _watch(one.name)
         report(0.0)  # may end what nobody waits for before it begins
         try:
-            return simulate(one.case.with_horizon(least_horizon or 0.0), report)
+            return simulate(one.case, report)
         except (ContactError, ConvergenceError) as error:
             report(1.0)
             return error

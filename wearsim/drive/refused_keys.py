@@ -16,10 +16,7 @@ _OF_ONE_SPROCKET = {
 }
 """Keys of [maintenance] that a drive has no use for."""
 
-_FOR_ONE_SPROCKET = {
-    "fatigue": "contact fatigue is for the case of one sprocket: remove this table",
-    "optimise": "wearsim optimise takes the case of one sprocket: remove this table",
-}
+_FOR_ONE_SPROCKET = {"fatigue": "contact fatigue is for the case of one sprocket: remove this table"}
 """Tables that a drive has no use for."""
 
 

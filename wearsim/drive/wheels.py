@@ -82,6 +82,23 @@ def drive_wheels(document: Document) -> list[DriveWheel]:
     return found if faults.count == before else []
 
 
+def part_names(tables: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the names of the parts of a whole drive, the chain first; none of other cases.
+
+    Examples
+    --------
+    >>> part_names({"sprocket": [{"name": "motor", "teeth": 21}, {"teeth": 57}]})
+    ('chain', 'motor', 'driven')
+    >>> part_names({"sprocket": {"teeth": 21}})
+    ()
+    """
+    sprockets = tables.get("sprocket")
+    if not isinstance(sprockets, list):
+        return ()
+    named = [table if isinstance(table, Mapping) else {} for table in sprockets]
+    return "chain", *(wheel_name(table, number, len(named)) for number, table in enumerate(named, start=1))
+
+
 def wheel_name(table: Mapping[str, Any], number: int, count: int) -> str:
     """Return the name of a sprocket; its role where it has none, with its number where there are many.
 

@@ -7,8 +7,7 @@ from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase
 from wearsim.python.answer import Answer, table_of
 from wearsim.python.case_input import CaseInput, loaded
-from wearsim.report.drive.layout import drive_check_json, layout_text
-from wearsim.report.rating import check_json, notes_text, rating_table
+from wearsim.report.check import check_json, check_text
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -40,17 +39,7 @@ class CheckResult(Answer):
     @property
     def text(self) -> str:
         """Assumptions, ratings, notes and warnings in words."""
-        one = self.case if isinstance(self.case, Case) else self.case.driver.case
-        layout = "" if isinstance(self.case, Case) else layout_text(self.case)
-        lines = [
-            f"{self.title}: {self.headline}",
-            layout,
-            *(f"  assumes  {text}" for text in self.assumptions),
-            rating_table(one),
-            notes_text(one),
-            *(f"  warning  {text}" for text in self.warnings),
-        ]
-        return "\n".join(filter(None, lines))
+        return check_text(self.case, f"{self.title}: {self.headline}")
 
     @property
     def assumptions(self) -> tuple[str, ...]:
@@ -85,7 +74,7 @@ class CheckResult(Answer):
         dict
             Plain numbers, strings, lists and None; never nan.
         """
-        return check_json(self.case) if isinstance(self.case, Case) else drive_check_json(self.case)
+        return check_json(self.case)
 
 
 def check(case: CaseInput) -> CheckResult:
@@ -123,6 +112,5 @@ def check(case: CaseInput) -> CheckResult:
     0.108585
     """
     found = loaded(case)
-    if isinstance(found, Case):
-        found.drive.check(found)
+    found.check()
     return CheckResult(found)

@@ -4,14 +4,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
-from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_case import DriveCase, single_cases
 from wearsim.errors import Range, check_ranges
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads, tooth_loads
 from wearsim.python.answer import Answer, table_of
 from wearsim.python.case_input import CaseInput, loaded
 from wearsim.quantities import grouped
-from wearsim.report.drive.layout import drive_loads_json, layout_text
-from wearsim.report.loads_table import loads_json, loads_table
+from wearsim.report.drive.layout import loads_json_of, loads_text
+from wearsim.report.loads_table import loads_json
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -48,8 +48,7 @@ class LoadsResult(Answer):
     @property
     def text(self) -> str:
         """What ``wearsim loads`` prints."""
-        layout = "" if isinstance(self.case, Case) else layout_text(self.case)
-        return "\n".join(filter(None, [layout, *map(loads_table, self.by_sprocket.values())]))
+        return loads_text(self.case, self.by_sprocket)
 
     @property
     def teeth(self) -> "pd.DataFrame":
@@ -89,10 +88,7 @@ class LoadsResult(Answer):
         dict
             Plain numbers, strings, lists and None; never nan.
         """
-        if isinstance(self.case, DriveCase):
-            return drive_loads_json(self.case, self.by_sprocket)
-        (found,) = self.by_sprocket.values()
-        return loads_json(found)
+        return loads_json_of(self.case, self.by_sprocket)
 
     def plot(self) -> "Figure":
         """Draw the normal force on each tooth.
@@ -155,9 +151,7 @@ def loads(
     check_ranges("loads", {"elongation_percent": elongation_percent, "phase": phase}, _RANGES)
     found = loaded(case)
     part = None if worst else float(phase)
-    cases = (
-        {"sprocket": found} if isinstance(found, Case) else {one.name: one.case for one in found.sprockets}
-    )
+    cases = single_cases(found)
     loaded_teeth = {name: tooth_loads(one, 0.01 * elongation_percent, part) for name, one in cases.items()}
     return LoadsResult(found, loaded_teeth)
 

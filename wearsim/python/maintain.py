@@ -150,4 +150,4 @@ def maintain(
     if isinstance(found, Case):
         found.drive.check(found)
         return MaintenanceResult(compare_policies(found, lambda done, of, what: progress(done / of)))
-    return MaintenanceResult(drive_plan(drive_life(found, None, progress).complete()))
+    return MaintenanceResult(drive_plan(drive_life(found, progress).complete()))

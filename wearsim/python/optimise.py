@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import Range, check_ranges
 from wearsim.python.answer import DrawnAnswer
 from wearsim.python.case_input import CaseInput, with_table
@@ -59,7 +60,7 @@ class OptimiseResult(DrawnAnswer):
         return optimise_text(self.outcome)
 
     @property
-    def cases(self) -> list[Case]:
+    def cases(self) -> list[Case | DriveCase]:
         """The best designs as cases, in the order of ``designs``."""
         return self.outcome.cases
 

@@ -7,10 +7,9 @@ from typing import Any, overload
 from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import DriveLife
-from wearsim.drive.life import drive_life
+from wearsim.drive.simulate import simulate as simulate_loaded
 from wearsim.python.case_input import CaseInput, loaded
 from wearsim.result import WearResult
-from wearsim.simulation import simulate as simulate_case
 
 
 @overload
@@ -69,7 +68,4 @@ def simulate(
     >>> result.life.hours == result.life.cycles / (60 * 100)
     True
     """
-    found = loaded(case)
-    if isinstance(found, DriveCase):
-        return drive_life(found, None, progress)
-    return simulate_case(found, progress)
+    return simulate_loaded(loaded(case), progress)

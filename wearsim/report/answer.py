@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.power_rating import RATED_HOURS
 from wearsim.chain.selection import RATED_FOR_HOURS, RatingFinding
+from wearsim.drive.drive_result import DriveLife
 from wearsim.quantities import DAYS_OF_YEAR, grouped
 from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, LimitState, LowerBound, WearResult
@@ -126,8 +127,12 @@ def slack_needed(needed: float, limit: float) -> str:
     return grouped(needed, 3) if needed * _FAR > limit else f"below {grouped(limit / _FAR, 2)}"
 
 
-def answer(result: WearResult, source: str, explain: bool = False) -> str:
-    """Return the answer of one case as ``wearsim life`` prints it, on request with all that it rests on."""
+def answer(result: WearResult | DriveLife, source: str, explain: bool = False) -> str:
+    """Return the answer of a case as ``wearsim life`` prints it, on request with all that it rests on."""
+    if isinstance(result, DriveLife):
+        from wearsim.report.drive.drive_text import drive_text
+
+        return drive_text(result, source, explain)
     found = findings(result)
     if explain:
         found += [("Band from", result.band), *_explained(result)]
@@ -403,7 +408,7 @@ def grid_json(grid: "GridStudy") -> dict[str, Any]:
     }
 
 
-def grid_text(grid: "GridStudy") -> str:
+def grid_text(grid: "GridStudy", sprocket: str = "") -> str:
     """Return a study of three grids as ``wearsim life --verify-grid`` prints it."""
     nodes = ", ".join(map(str, grid.points))
     values = ", ".join(f"{value:.7g}" for value in grid.values)
@@ -416,4 +421,5 @@ def grid_text(grid: "GridStudy") -> str:
             f"{order} instead of {LEAST_ORDER:g} to {MAX_ORDER:g}, so no extrapolation: spread of the "
             f"three {grid.error:.1g}"
         )
-    return row("Grid", f"{nodes} nodes: {values} {unit}; {found}")
+    whose = f"{sprocket}, " if sprocket else ""
+    return row("Grid", f"{whose}{nodes} nodes: {values} {unit}; {found}")

@@ -4,37 +4,11 @@ import textwrap
 from collections.abc import Sequence
 from typing import Any
 
-from wearsim._version import ANSWER_HEAD
 from wearsim.case.model import Case
-from wearsim.chain.selection import RatingFinding, rating_warnings
+from wearsim.chain.selection import RatingFinding
 from wearsim.quantities import grouped
 
 _WIDTH = 100
-
-
-def check_json(case: Case) -> dict[str, Any]:
-    """Return what is known of a case without a run as ``wearsim check --json`` prints it."""
-    return {
-        **ANSWER_HEAD,
-        "case": case.name,
-        "assumptions": list(check_assumptions(case)),
-        "warnings": check_warnings(case),
-        **rating_json(case),
-    }
-
-
-def check_assumptions(case: Case) -> tuple[str, ...]:
-    """Return what is taken for granted before a run, and the film ratio where the oil is given."""
-    if case.film is None:
-        return case.assumptions
-    from wearsim.simulation.film_ratio import film_assumptions
-
-    return (*film_assumptions(case), *case.assumptions)
-
-
-def check_warnings(case: Case) -> list[str]:
-    """Return what is doubtful about a case before a run, its ratings among it."""
-    return [*case.warnings, *rating_warnings(case.drive.ratings(case))]
 
 
 def rating_json(case: Case) -> dict[str, Any]:

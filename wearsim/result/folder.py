@@ -51,7 +51,7 @@ def write_result(
             columns = result[f"{name}_columns"]
             pd.DataFrame(columns).to_csv(place / f"{name}.csv", index=False)
             if parquet:
-                _write_parquet(place / f"{name}.parquet", columns)
+                write_parquet(place / f"{name}.parquet", columns)
 
 
 def pyarrow() -> Any:
@@ -59,7 +59,7 @@ def pyarrow() -> Any:
     return library("pyarrow", "parquet", "--parquet")
 
 
-def _write_parquet(path: Path, columns: Mapping[str, Vector]) -> None:
+def write_parquet(path: Path, columns: Mapping[str, Vector]) -> None:
     """Write a table; the unit of each column stands in the metadata of its field."""
     arrow = pyarrow()
     from pyarrow import parquet

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from datetime import date, timedelta
 from typing import Any
 
-from wearsim.result import Life, LowerBound, WearResult
+from wearsim.result.lives import Life, LowerBound
 
 
 def service_measures(inputs: Mapping[str, Any], hours: float, before: float = 0.0) -> dict[str, float | str]:
@@ -32,11 +32,6 @@ def service_measures(inputs: Mapping[str, Any], hours: float, before: float = 0.
         if days <= (date.max - start).days:
             found["date"] = (start + timedelta(days=int(days))).isoformat()
     return found
-
-
-def life_json(result: WearResult) -> dict[str, Any]:
-    """Return the answer as ``wearsim life --json`` prints it."""
-    return result.summary() | service_keys(result.inputs, result.life)
 
 
 def service_keys(

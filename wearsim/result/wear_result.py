@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim._version import __version__
 from wearsim.chain.selection import RatingFinding, overloading
+from wearsim.errors import WearsimError
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.notebook import html_rows, one_line
@@ -19,6 +20,7 @@ from wearsim.result.ends import Lives, PartEnd, ends_json, part_ends
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
 from wearsim.result.lives import Life, LimitState, LowerBound, first_life, life_keys
 from wearsim.result.second_opinions import SecondOpinions, opinions_json
+from wearsim.result.service import service_keys
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -198,6 +200,17 @@ class WearResult:
         return self.fatigue.get(self.governing or "", self.life)
 
     @property
+    def named_lives(self) -> dict[str, Life | LowerBound]:
+        """Lives by what they are in words: by wear, then by contact fatigue."""
+        fatigue = {f"{name.replace('_', ' ')} life": life for name, life in self.fatigue.items()}
+        return {"life": self.life, **fatigue}
+
+    @property
+    def failed(self) -> dict[str, WearsimError]:
+        """What runs of single parts ended with: none, there is one run."""
+        return {}
+
+    @property
     def ends(self) -> tuple[PartEnd, ...]:
         """Everything that may end a part, that which comes first at the head."""
         wear = self.parts if "chain" in self.parts else {"sprocket": self.life, **self.parts}
@@ -266,6 +279,7 @@ class WearResult:
             "life_tolerance": self.life_tolerance,
             "assumptions": list(self.assumptions),
             "warnings": list(self.warnings),
+            **service_keys(self.inputs, self.life),
         }
 
     def _parts(self) -> dict[str, Any]:

@@ -9,15 +9,19 @@ from pathlib import PurePath
 from typing import Any
 
 from wearsim._version import __version__
+from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import nearest
+from wearsim.drive.drive_case import DriveCase, chain_case, single_cases
+from wearsim.drive.wheels import part_names
 from wearsim.errors import CaseError, Fault
-from wearsim.input.document import Document, is_whole_drive
+from wearsim.input.document import Document
 from wearsim.input.keys import schema_fields, schema_of
-from wearsim.input.mechanism_registry import WRAP_PROFILES
+from wearsim.input.mechanism_registry import MECHANISMS, WHOLE_DRIVE, mechanism_of
 from wearsim.input.schema.table import is_number, without_numbers
 from wearsim.kernels.compiled import source_hash
 from wearsim.result.folder import FILE_KEYS, file_paths
-from wearsim.runner.case_kind import ONE_SPROCKET, CaseKind
+
+_WRAPS = MECHANISMS["wrap"], WHOLE_DRIVE
 
 FEW, SOME, MANY = 2, 25, 250
 """Cases of a shard: of wraps, which take seconds each, with contact fatigue, which run one by one,
@@ -52,7 +56,11 @@ class Design:
     # dotted keys that differ; entries of a list of tables by their numbers from 1
     keys: tuple[str, ...]
     rows: tuple[tuple[Any, ...], ...]  # values of the keys, a row for each case
-    kind: CaseKind = ONE_SPROCKET  # how they are read and run
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Parts whose lives have columns of their own."""
+        return part_names(self.tables)
 
     def tables_of(self, index: int) -> dict[str, Any]:
         """Return the tables of one case."""
@@ -81,17 +89,10 @@ class Design:
         """Cases that are run and stored together."""
         differs = {"mechanism.kind", "sprocket.profile"} & set(self.keys)
         indices = range(len(self.rows) if differs else 1)
-        if any(_wraps(self.tables_of(index)) for index in indices):
+        if any(mechanism_of(self.tables_of(index)) in _WRAPS for index in indices):
             return FEW
         tables = {*self.tables, *(key.partition(".")[0] for key in self.keys)}
         return SOME if "fatigue" in tables else MANY
-
-
-def _wraps(tables: Mapping[str, Any]) -> bool:
-    if is_whole_drive(tables):
-        return True
-    kind = tables.get("mechanism", {}).get("kind")
-    return kind == "wrap" or tables.get("sprocket", {}).get("profile") in WRAP_PROFILES
 
 
 def content_hash(content: Mapping[str, Any]) -> str:
@@ -147,13 +148,22 @@ def value_at(tables: Mapping[str, Any], key: str) -> Any:
     return found
 
 
-def design(
-    document: Document,
-    keys: Sequence[str],
-    rows: Sequence[Sequence[Any]],
-    place: str,
-    kind: CaseKind = ONE_SPROCKET,
-) -> Design:
+def value_in(case: Case | DriveCase, key: str) -> Any:
+    """Return the value of a key in a case with every default taken; None where there is none.
+
+    Of a drive ``sprocket.2.teeth`` is a key of the second sprocket, all else is of the driver.
+    """
+    table, _, rest = key.partition(".")
+    number, _, name = rest.partition(".")
+    if isinstance(case, Case) or table != "sprocket":
+        return value_at(chain_case(case).inputs, key)
+    if not is_number(number) or not 0 < int(number) <= len(case.wheels):
+        return None
+    (first, *_) = case.wheels[int(number) - 1].parts
+    return value_at(single_cases(case)[first].inputs, f"sprocket.{name}")
+
+
+def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]], place: str) -> Design:
     """Return the cases of a study with the texts of all their files."""
     _check_keys(document, keys, place)
     files: dict[str, str] = {}
@@ -171,7 +181,7 @@ def design(
         )
         for row in rows
     )
-    return Design(document.name, tables, files, tuple(keys), moved, kind)
+    return Design(document.name, tables, files, tuple(keys), moved)
 
 
 def _check_keys(document: Document, keys: Sequence[str], place: str) -> None:

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from wearsim.case.model import Case, WearBand, log_deviation
+from wearsim.drive.drive_case import chain_case, with_one_wear
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.schema.study_tables import Distribution
 from wearsim.result.folder import file_paths
-from wearsim.runner.case_kind import ONE_SPROCKET, CaseKind
-from wearsim.runner.design import Design, design, replaced, value_at
+from wearsim.runner.design import Design, design, replaced, value_at, value_in
 from wearsim.runner.distributions import described, quantile
 
 WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([fatigue])"
@@ -39,7 +40,6 @@ class ScatteredCase:
     document: Document  # the file without [uncertainty], the wear coefficient by its own key
     scatters: tuple[ScatteredKey, ...]  # what scatters, independently of one another
     assumptions: tuple[str, ...]  # what is taken for granted about that
-    kind: CaseKind = ONE_SPROCKET  # how its cases are read and run
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -61,18 +61,16 @@ class ScatteredCase:
     def design(self, shares: Vector) -> Design:
         """Return the cases at some probabilities of the keys."""
         rows = self.values(shares).tolist()
-        return design(self.document, self.keys, rows, self.place, self.kind)
+        return design(self.document, self.keys, rows, self.place)
 
 
 def load_scattered(
-    source: CaseSource,
-    overrides: Sequence[str],
-    least_horizon: float | None = None,
-    kind: CaseKind = ONE_SPROCKET,
+    source: CaseSource, overrides: Sequence[str], least_horizon: float | None = None
 ) -> ScatteredCase:
     """Return a case and what of it scatters by its table [uncertainty]."""
     document = read_document(source, overrides)
-    case = kind.read(source, overrides).with_horizon(least_horizon or 0.0)
+    loaded = with_one_wear(load_case(source, overrides))
+    case = chain_case(loaded).with_horizon(least_horizon or 0.0)
     given = _given(case)
     assumptions = []
     for coefficient, (value, band) in _coefficients(case).items():
@@ -86,9 +84,9 @@ def load_scattered(
         assumptions.append(WITH_FATIGUE)
     if len(given) > 1:
         assumptions.append("keys scatter independently of one another")
-    scatters = tuple(_scatter(case, key, law) for key, law in given.items())
+    scatters = tuple(_scatter(case, key, law, value_in(loaded, key)) for key, law in given.items())
     plain = plain_document(document, case)
-    return ScatteredCase(document.faults.file, case, plain, scatters, tuple(assumptions), kind)
+    return ScatteredCase(document.faults.file, case, plain, scatters, tuple(assumptions))
 
 
 def coefficient_key(case: Case) -> str:
@@ -116,16 +114,15 @@ def _given(case: Case) -> dict[str, Distribution]:
     return {key: Distribution.model_validate(entry) for key, entry in table.items()}
 
 
-def _scatter(case: Case, key: str, distribution: Distribution) -> ScatteredKey:
+def _scatter(case: Case, key: str, distribution: Distribution, given: Any) -> ScatteredKey:
     if key.startswith("run."):
         text = "keys of [run] tell how a life is calculated and cannot scatter: remove it"
         raise CaseError([Fault(text, f'uncertainty."{key}"', case.name)])
-    value = case.wear.coefficient if key == coefficient_key(case) else _value(case, key)
+    value = case.wear.coefficient if key == coefficient_key(case) else _number(case, key, given)
     return ScatteredKey(key, distribution, value, described(distribution, value))
 
 
-def _value(case: Case, key: str) -> float:
-    found = value_at(case.inputs, key)
+def _number(case: Case, key: str, found: Any) -> float:
     if isinstance(found, bool | int) or not isinstance(found, float):
         what = "is not in the case" if found is None else f"is {found!r}"
         text = f"only a key that holds a number with a fraction can scatter, but it {what}"

@@ -8,6 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from wearsim.drive.load_case import load_case
+from wearsim.drive.simulate import simulate_many
 from wearsim.errors import StudyError, WearsimError
 from wearsim.result import Life
 from wearsim.result.folder import with_files
@@ -56,7 +58,7 @@ class Shard:
 
 def life_columns(design: Design) -> tuple[str, ...]:
     """Return the columns with the lives of the parts of each case."""
-    return tuple(f"{name}_life_hours" for name in design.kind.parts)
+    return tuple(f"{name}_life_hours" for name in design.parts)
 
 
 def shards(design: Design) -> Iterator[Shard]:
@@ -74,14 +76,13 @@ def run_shard(shard: Shard) -> Rows:
             f"{shard.engine.version} ({shard.engine.kernels}): install the same on all"
         )
     loaded = loaded_cases(shard.design)
-    kind = shard.design.kind
-    lives = kind.lives(case for case in loaded if not isinstance(case, WearsimError))
+    lives = simulate_many((case for case in loaded if not isinstance(case, WearsimError)), threads=1)
     rows: Rows = {name: [] for name in shard.columns}
     for index, case in enumerate(loaded):
         failed = isinstance(case, WearsimError)
         found = case if failed else next(lives)
         digest = None if failed else _digest(case, shard)
-        values = (shard.first + index, *_row(found), digest, *_part_hours(found, kind.parts))
+        values = (shard.first + index, *_row(found), digest, *_part_hours(found, shard.design.parts))
         for name, value in zip(shard.columns, values, strict=True):
             rows[name].append(value)
     return rows
@@ -97,7 +98,7 @@ def loaded_cases(design: Design) -> list[Any]:
 
 def _loaded(design: Design, index: int, folder: str) -> Any:
     try:
-        return design.kind.load(with_files(design.tables_of(index), folder))
+        return load_case(with_files(design.tables_of(index), folder))
     except WearsimError as error:
         return error
 

@@ -39,7 +39,7 @@ class CaseLife:
     # relative error of the life by its steps and its grid, as `simulate` states it, to rounding
     numerical_error: float
     warnings: tuple[str, ...]  # what is doubtful about the case and the worn flank
-    # lives of the parts of a whole drive, which `simulate_many` does not know
+    # lives of the parts of a whole drive; a cassette is one
     parts: Mapping[str, Life | LowerBound] = field(default_factory=dict)
 
 
@@ -145,41 +145,8 @@ class _CaseJob:
             return
 
 
-def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator[CaseLife | WearsimError]:
-    """Find the lives of many cases.
-
-    Cases on a strand or under a table of loads whose only limit is the critical depth run
-    in compiled batches on all threads; of those that differ only in the wear coefficient
-    one runs, as their lives times coefficient are the same. All others run one by one.
-    So do those with contact fatigue, whose lives end by that or by wear, whichever is first.
-    Neither cases nor results are kept: memory does not grow with their number.
-
-    Parameters
-    ----------
-    cases : iterable of Case
-        Complete cases, taken as they are needed.
-    threads : int, optional
-        As many as the machine has cores where it is left out.
-
-    Yields
-    ------
-    CaseLife or WearsimError
-        For each case, in their order; the error that `simulate` would raise.
-
-    Examples
-    --------
-    >>> import wearsim
-    >>> case = wearsim.load_case({
-    ...     "format_version": 1,
-    ...     "chain": {"designation": "16B-1"},
-    ...     "sprocket": {"teeth": 20, "profile": "evolute"},
-    ...     "load": {"power_kW": 3, "speed_rpm": 100},
-    ...     "wear": {"condition": "hardened, oiled"},
-    ... })
-    >>> [found] = wearsim.simulate_many([case])
-    >>> found.life == wearsim.simulate(case).life
-    True
-    """
+def batched_lives(cases: Iterable[Case], threads: int | None = None) -> Iterator[CaseLife | WearsimError]:
+    """Give the lives of cases of one sprocket or a pair of gears in their order, as `simulate_many` does."""
     threads = threads or os.cpu_count() or 1
     remaining = iter(cases)
     under_way: deque[tuple[list[Case], list[_CaseJob | None], list[_Batch]]] = deque()

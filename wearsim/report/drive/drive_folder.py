@@ -10,6 +10,7 @@ import tomlkit
 from wearsim.drive.drive_result import DriveLife
 from wearsim.files import new_folder
 from wearsim.report.drive.sheet import drive_json
+from wearsim.result.folder import write_parquet
 
 if TYPE_CHECKING:
     pass
@@ -18,14 +19,18 @@ _INPUTS = "inputs"
 _FILES = ("points_file", "dxf_file")
 
 
-def write_drive(found: DriveLife, folder: Path, force: bool) -> None:
+def write_drive(found: DriveLife, folder: Path, force: bool, parquet: bool = False) -> None:
     """Write the lives of a drive, its input, and the history and the flanks of all sprockets."""
     with new_folder(folder, force) as place:
         text = json.dumps(drive_json(found), indent=2, ensure_ascii=False, allow_nan=False)
         (place / "drive.json").write_text(text + "\n", encoding="utf-8")
         (place / "drive.lock.toml").write_text(_lock(found, place), encoding="utf-8")
         for name in ("history", "flank"):
-            getattr(found, name).to_csv(place / f"{name}.csv", index=False)
+            table = getattr(found, name)
+            table.to_csv(place / f"{name}.csv", index=False)
+            if parquet:
+                columns = {column: table[column].to_numpy() for column in table}
+                write_parquet(place / f"{name}.parquet", columns)
 
 
 def _lock(found: DriveLife, place: Path) -> str:

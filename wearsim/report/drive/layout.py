@@ -6,13 +6,12 @@ from dataclasses import replace
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
+from wearsim.case.model import Case
 from wearsim.chain.loop_forces import LoopForces
-from wearsim.chain.selection import rating_warnings
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.wheels import DRIVER
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads
-from wearsim.report.loads_table import loads_json
-from wearsim.report.rating import rating_json
+from wearsim.report.loads_table import loads_json, loads_table
 from wearsim.report.text_lines import row
 
 
@@ -70,29 +69,21 @@ def layout_json(drive: DriveCase) -> dict[str, Any]:
     }
 
 
-def drive_check_json(drive: DriveCase) -> dict[str, Any]:
-    """Return what is known of a drive without a run as ``wearsim check --json`` prints it."""
-    return {
-        **ANSWER_HEAD,
-        "case": drive.name,
-        "sprockets": [one.name for one in drive.sprockets],
-        "layout": layout_json(drive),
-        "assumptions": list(drive.assumptions),
-        "warnings": drive_check_warnings(drive),
-        **rating_json(drive.driver.case),
-    }
-
-
-def drive_check_warnings(drive: DriveCase) -> list[str]:
-    """Return what is doubtful about a drive before a run, its ratings among it."""
-    case = drive.driver.case
-    return [*drive.warnings, *rating_warnings(case.drive.ratings(case))]
-
-
-def drive_loads_json(drive: DriveCase, teeth: Mapping[str, ToothLoads]) -> dict[str, Any]:
-    """Return what spans, shafts and teeth carry as ``wearsim loads --json`` prints it."""
+def loads_json_of(case: Case | DriveCase, teeth: Mapping[str, ToothLoads]) -> dict[str, Any]:
+    """Return what teeth, and of a drive spans and shafts, carry as ``wearsim loads --json`` prints it."""
+    if isinstance(case, Case):
+        (found,) = teeth.values()
+        return loads_json(found)
     sprockets = [{"name": name, **loads_json(found)} for name, found in teeth.items()]
-    return {**ANSWER_HEAD, "case": drive.name, "layout": layout_json(drive), "sprockets": sprockets}
+    return {**ANSWER_HEAD, "case": case.name, "layout": layout_json(case), "sprockets": sprockets}
+
+
+def loads_text(case: Case | DriveCase, teeth: Mapping[str, ToothLoads]) -> str:
+    """Return what teeth, and of a drive spans and shafts, carry in words."""
+    if isinstance(case, Case):
+        return "\n".join(map(loads_table, teeth.values()))
+    tables = (loads_table(replace(found, title=name)) for name, found in teeth.items())
+    return "\n".join([case.title, layout_text(case), *tables])
 
 
 def loop_names(drive: DriveCase) -> list[str]:

@@ -23,7 +23,6 @@ from wearsim.report.workbook.workbook_writer import (
 )
 from wearsim.result import Life, WearResult
 from wearsim.result.lives import hours
-from wearsim.result.service import life_json
 
 _NOT_SHOWN = (
     "schema_version",
@@ -95,7 +94,7 @@ def write_answer_page(
 
 def _answers(results: Sequence[WearResult]) -> dict[str, list[Any]]:
     """Values of every quantity, one for each result."""
-    answers = [_flat(life_json(result)) for result in results]
+    answers = [_flat(result.summary()) for result in results]
     rows: dict[str, list[Any]] = {"life": [_in_words(result) for result in results]}
     service = [service_text(result.inputs, result.life) for result in results]
     if any(service):

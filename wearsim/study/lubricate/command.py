@@ -31,12 +31,9 @@ def lubricate(case: Path, out: Path | None, force: bool, as_json: bool, settings
     How long the lubricant lasts, its price and the minutes of work stand in [lubrication],
     other lubricants in [[lubrication.option]], prices of chain and sprockets in [maintenance].
     """
-    from wearsim.command.whole_drives import is_drive, loaded_drive
     from wearsim.files import check_folder
 
-    loaded = (
-        loaded_drive(case, settings, as_json) if is_drive(case) else load_cases([case], settings, as_json)[0]
-    )
+    (loaded,) = load_cases([case], settings, as_json)
     from wearsim.study.lubricate.runs import lubricate as compare_intervals
     from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, save_lubrication
 

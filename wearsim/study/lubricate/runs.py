@@ -120,7 +120,7 @@ def _run(case: Case | DriveCase, progress: Callable[[float], None]) -> Lubricate
 
 
 def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> LubricatedDrive:
-    found = drive_life(drive, None, progress).complete()
+    found = drive_life(drive, progress).complete()
     lives = part_lives(found)
     first = drive.driver.case
     cases = {one.name: one.case for one in drive.sprockets}

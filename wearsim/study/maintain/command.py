@@ -3,14 +3,28 @@
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
 from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, error_json, load_cases, overrides, print_json, warn
+from wearsim.command.options import (
+    common_options,
+    error_json,
+    load_cases,
+    overrides,
+    print_json,
+    warn,
+    working,
+)
 from wearsim.errors import WearsimError
+
+if TYPE_CHECKING:
+    from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
 
 
 @click.command(short_help="When to replace chain and sprockets: hours, cost.")
@@ -29,33 +43,56 @@ def maintain(case: Path, out: Path | None, force: bool, as_json: bool, settings:
     A CASE with [[sprocket]] twice is a whole drive: when to replace which of its parts, by the
     life of each and the prices in [maintenance].
     """
-    from wearsim.command.whole_drives import is_drive, planned
-
-    if is_drive(case):
-        planned(case, settings, as_json, out, force)
-        return
     (loaded,) = load_cases([case], settings, as_json)
     from wearsim.files import check_folder
-    from wearsim.study.maintain.model import maintain as compare_policies
-    from wearsim.study.maintain.sheet import maintenance_json, maintenance_text, save_maintenance
 
     if out is not None:
         check_folder(out, force)
     try:
-        with progress() as report_progress:
-            plan = compare_policies(loaded, report_progress)
+        answer = _answer(loaded, str(case))
     except WearsimError as error:
         if as_json:
             click.echo(error_json(case.stem, error))
         raise
     if out is not None:
-        save_maintenance(plan, out, force)
+        answer.save(out, force)
     if as_json:
-        print_json(maintenance_json(plan), case, plan.warnings)
+        print_json(answer.summary, case, answer.warnings)
     else:
-        show(maintenance_text(plan))
+        show(answer.text)
     if out is not None:
         warn(f"written to {out}")
+
+
+class _Answer(NamedTuple):
+    """A plan as it is shown."""
+
+    text: str
+    summary: dict[str, Any]
+    warnings: tuple[str, ...]
+    save: Callable[[Path, bool], None]
+
+
+def _answer(case: "Case | DriveCase", source: str) -> _Answer:
+    """Return the plan of a drive by the lives of its parts, of one sprocket by policies that are run."""
+    from wearsim.case.model import Case
+
+    if isinstance(case, Case):
+        from wearsim.study.maintain.model import maintain as compare_policies
+        from wearsim.study.maintain.sheet import maintenance_json, maintenance_text, save_maintenance
+
+        with progress() as report_progress:
+            policies = compare_policies(case, report_progress)
+        save = partial(save_maintenance, policies)
+        return _Answer(maintenance_text(policies), maintenance_json(policies), policies.warnings, save)
+    from wearsim.drive.life import drive_life
+    from wearsim.drive.maintenance import drive_plan
+    from wearsim.report.drive.plan_sheet import plan_json, plan_text, save_plan
+
+    with working(f"wearing {case.title}") as report_progress_of_lives:
+        found = drive_life(case, report_progress_of_lives).complete()
+    plan = drive_plan(found)
+    return _Answer(plan_text(plan, source), plan_json(plan), found.warnings, partial(save_plan, plan))
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """What an optimisation asks of a case: what may change, what is sought, and within what limits."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import zip_longest
@@ -8,12 +9,13 @@ from typing import Any
 
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import materials
-from wearsim.drive.load_case import load_single
+from wearsim.drive.drive_case import DriveCase, chain_case, single_cases
+from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.schema.study_tables import MeasureLimit, OptimiseTable
 from wearsim.input.schema.table import all_differ
-from wearsim.runner.design import NAMES_FILE, Design, design, replaced, value_at
+from wearsim.runner.design import NAMES_FILE, Design, design, replaced, value_in
 from wearsim.runner.scatter import WITH_FATIGUE
 from wearsim.study.optimise.search_space import SearchSpace, search_space
 
@@ -43,7 +45,7 @@ class OptimiseStudy:
         """Return the cases of some designs."""
         return replace(self.given, keys=self.space.keys, rows=tuple(rows))
 
-    def assumptions(self, cases: Sequence[Case]) -> tuple[str, ...]:
+    def assumptions(self, cases: Sequence[Case | DriveCase]) -> tuple[str, ...]:
         """Return what is taken for granted of designs."""
         each = [(*self._of_measures(case), *case.assumptions) for case in cases]
         shared = [text for text in each[0] if all(text in other for other in each[1:])]
@@ -51,7 +53,7 @@ class OptimiseStudy:
             shared.append("more that differs from design to design: `wearsim check designs/01.toml` tells it")
         return tuple(shared)
 
-    def _of_measures(self, case: Case) -> list[str]:
+    def _of_measures(self, case: Case | DriveCase) -> list[str]:
         found = []
         if "mass_kg" in self.measures:
             found.append(mass_assumption(case))
@@ -60,7 +62,7 @@ class OptimiseStudy:
                 "the peak pressure is that on the new flank (Hertz) under the heaviest block of the duty; "
                 "wear changes it"
             )
-        if case.fatigue is not None:
+        if chain_case(case).fatigue is not None:
             found.append(WITH_FATIGUE)
         return found
 
@@ -68,7 +70,8 @@ class OptimiseStudy:
 def load_optimise(source: CaseSource, overrides: Sequence[str], evaluations: int, seed: int) -> OptimiseStudy:
     """Return what is asked of a case by its table [optimise]."""
     document = read_document(source, overrides)
-    case = load_single(source, overrides)
+    loaded = load_case(source, overrides)
+    case = chain_case(loaded)
     if "optimise" not in case.inputs:
         text = "this table is required: it tells what may change, as parameters by their keys"
         raise CaseError([Fault(text, "optimise", document.faults.file)])
@@ -76,13 +79,13 @@ def load_optimise(source: CaseSource, overrides: Sequence[str], evaluations: int
     space = search_space(document.data, table.parameters)
     limits = {name: limit for name, limit in table.limits if limit is not None}
     if "mass_kg" in (*table.objectives, *limits):
-        blank_mass(case)
+        blank_mass(loaded)
     if "life_hours" in limits:
         life = limits["life_hours"]
         # A life that runs beyond its high limit must be seen to.
         horizon = max(life.low or 0.0, _BEYOND * (life.high or 0.0), case.run.horizon_hours)
-        raised = load_single(source, [*overrides, f"run.horizon_hours={horizon!r}"])
-        case = replace(raised, title=case.title)
+        loaded = load_case(source, [*overrides, f"run.horizon_hours={horizon!r}"])
+        case = replace(chain_case(loaded), title=case.title)
     data = {name: part for name, part in document.data.items() if name != "optimise"}
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
     given, space = _with_files(replace(document, data=data), space)
@@ -90,7 +93,7 @@ def load_optimise(source: CaseSource, overrides: Sequence[str], evaluations: int
         case,
         replace(given, keys=(), rows=((),)),
         space,
-        tuple(_value(case.inputs, key) for key in space.keys),
+        tuple(_value(loaded, key) for key in space.keys),
         tuple(table.objectives),
         limits,
         seed,
@@ -136,17 +139,21 @@ def _place(key: str) -> str:
     return f'optimise.parameters."{key}"'
 
 
-def _value(inputs: Mapping[str, Any], key: str) -> Any:
+def _value(case: Case | DriveCase, key: str) -> Any:
     """Of a key in the case; of a file its name without folder."""
-    found = value_at(inputs, key)
+    found = value_in(case, key)
     return PurePath(found).name if key in NAMES_FILE and isinstance(found, str) else found
 
 
 _M3_PER_MM3 = 1e-9
 
 
-def blank_mass(case: Case) -> float:
-    """Return the mass of a new sprocket: its outline times face width and density."""
+def blank_mass(case: Case | DriveCase) -> float:
+    """Return the mass of new sprockets: their outlines times face width and density."""
+    return math.fsum(_blank_mass(one) for one in single_cases(case).values())
+
+
+def _blank_mass(case: Case) -> float:
     area = case.drive.blank_area()
     if area is None:
         text = (
@@ -163,12 +170,16 @@ def density(case: Case) -> float:
     return materials()[_material(case)].density
 
 
-def mass_assumption(case: Case) -> str:
+def mass_assumption(case: Case | DriveCase) -> str:
     """Return what the mass takes for granted."""
-    return (
-        "the mass is that of the new outline over the face width, without bore, hub and chamfers, of "
-        f"{_material(case)} with {density(case):g} kg/m3"
+    singles = list(single_cases(case).values())
+    of = " and ".join(dict.fromkeys(f"{_material(one)} with {density(one):g} kg/m3" for one in singles))
+    whole = (
+        "outlines over the face widths of all sprockets"
+        if len(singles) > 1
+        else "outline over the face width"
     )
+    return f"the mass is that of the new {whole}, without bore, hub and chamfers, of {of}"
 
 
 def _material(case: Case) -> str:

@@ -8,18 +8,25 @@ from typing import Any
 import pandas as pd
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase, single_cases
 from wearsim.errors import StudyError, WearsimError
 from wearsim.input.schema.study_tables import MeasureLimit
 from wearsim.report.text_lines import defaults_by_kind
 from wearsim.runner.design import Design
 from wearsim.runner.shard import loaded_cases
-from wearsim.simulation import new_peak_pressure
+from wearsim.simulation import new_peak_pressure as single_peak_pressure
 from wearsim.study.optimise.model import OptimiseStudy, blank_mass
 
 MAXIMISED = ("life_hours",)
 """Measures of which more is better; of the others less is."""
 
-_OF_THE_CASE: dict[str, Callable[[Case], float]] = {
+
+def new_peak_pressure(case: Case | DriveCase) -> float:
+    """Return the highest pressure on the new flanks of a case, of a drive that of its worst sprocket."""
+    return max(map(single_peak_pressure, single_cases(case).values()))
+
+
+_OF_THE_CASE: dict[str, Callable[[Case | DriveCase], float]] = {
     "mass_kg": blank_mass,
     "peak_pressure_MPa": new_peak_pressure,
 }
@@ -68,10 +75,10 @@ class OptimiseOutcome:
     settled: bool  # whether the search ended as nothing was gained any more
 
     @property
-    def cases(self) -> list[Case]:
+    def cases(self) -> list[Case | DriveCase]:
         """The best designs as cases."""
         cases = loaded_cases(self.study.design([one.values for one in self.front]))
-        return [case for case in cases if isinstance(case, Case)]
+        return [case for case in cases if not isinstance(case, WearsimError)]
 
 
 class Trials:
@@ -111,7 +118,7 @@ def _candidate(
     number: int,
     row: tuple[Any, ...],
     found: Mapping[Any, Any],
-    case: Case | WearsimError,
+    case: Case | DriveCase | WearsimError,
     needed: Sequence[str],
 ) -> Candidate:
     error, measures = str(found["error"]), {}
@@ -119,7 +126,7 @@ def _candidate(
     if not error:
         measures["life_hours"] = found["life_hours"] if reached else found["hours_run"]
         try:
-            assert isinstance(case, Case)
+            assert not isinstance(case, WearsimError)
             measures |= {name: _OF_THE_CASE[name](case) for name in needed}
             error = "".join(
                 f"{name} must be above 0, is {value:g}" for name, value in measures.items() if not value > 0.0

@@ -22,8 +22,7 @@ from wearsim.command.options import (
 from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:
-    from wearsim.case.model import Case
-    from wearsim.drive.drive_case import DriveCase
+    pass
 
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
@@ -119,7 +118,7 @@ def remaining(
         raise click.UsageError("give exactly one of --depth-mm, --over-pins-mm, --elongation")
     if out is not None:
         raise click.UsageError("--out needs READINGS: one reading has neither table nor picture")
-    loaded = _loaded(case, settings, as_json)
+    (loaded,) = load_cases([case], settings, as_json)
     from wearsim.drive.drive_case import chain_case
     from wearsim.study.remaining.model import DEPTH, ELONGATION, OVER_PINS, SingleReading, remaining_life
     from wearsim.study.remaining.sheet import remaining_json, remaining_text
@@ -149,7 +148,7 @@ def _of_chain(
         from wearsim.files import check_folder
 
         check_folder(out, force)
-    loaded = _loaded(case, settings, as_json)
+    (loaded,) = load_cases([case], settings, as_json)
     from wearsim.study.remaining.chain_sheet import chain_json, chain_text, save_chain
     from wearsim.study.remaining.chain_state import chain_state
 
@@ -162,16 +161,6 @@ def _of_chain(
     if out is not None:
         save_chain(found, out, force)
         warn(f"written to {out}")
-
-
-def _loaded(case: Path, settings: tuple[str, ...], as_json: bool) -> "Case | DriveCase":
-    """Return a case, or a whole drive, whose chain can be read."""
-    from wearsim.command.whole_drives import is_drive, loaded_drive
-
-    if is_drive(case):
-        return loaded_drive(case, settings, as_json)
-    (loaded,) = load_cases([case], settings, as_json)
-    return loaded
 
 
 @contextmanager

@@ -17,7 +17,7 @@ def part_lives(
 ) -> dict[str, Any]:
     """Return the lives of the chain and of both sprockets, and whether they are as long as required."""
     drive = load_drive({**tables, "run": {"horizon_hours": _HORIZON * required}})
-    found = drive_life(drive, None, progress).complete()
+    found = drive_life(drive, progress).complete()
     return {
         "parts": [{"name": name, **life_keys("life_hours", life)} for name, life in found.parts.items()],
         "long_enough": all(

@@ -14,13 +14,14 @@ import numpy as np
 import pandas as pd
 
 from wearsim.case.model import Case
-from wearsim.drive.load_case import load_single
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.load_case import load_case
+from wearsim.drive.simulate import simulate
 from wearsim.errors import StudyError
 from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
 from wearsim.runner.design import Design, replaced
 from wearsim.runner.scatter import ScatteredCase, ScatteredKey, load_scattered
-from wearsim.simulation import simulate
 from wearsim.study.solve_for.model import solve_for
 from wearsim.study.uncertainty.model import EDGE
 
@@ -130,12 +131,12 @@ def doubling(scattered: ScatteredCase) -> dict[str, float]:
     return found
 
 
-def _case_with(scattered: ScatteredCase, key: str, value: float) -> Case:
+def _case_with(scattered: ScatteredCase, key: str, value: float) -> Case | DriveCase:
     tables = scattered.document.data
     for scatter in scattered.scatters:
         given = value if scatter.key == key else scatter.value
         tables = replaced(tables, scatter.key.split("."), given)
-    return load_single(tables)
+    return load_case(tables)
 
 
 def _problem(scattered: ScatteredCase) -> dict[str, Any]:

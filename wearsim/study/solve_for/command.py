@@ -13,6 +13,7 @@ from wearsim.errors import CaseError, Fault, WearsimError
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
     from wearsim.study.solve_for.model import Solved
 
 
@@ -27,14 +28,14 @@ def solve(
 ) -> int:
     """Print the value of a key at which a case lives so long, and its answer there."""
     (case,) = load_cases([path], settings, as_json)
-    from wearsim.drive.load_case import load_single
+    from wearsim.drive.load_case import load_case
     from wearsim.study.solve_for.model import solve_for
 
     try:
         start = _start(case, key)
         with working(f"solving {case.title} for {key}"):
             solved = solve_for(
-                lambda value: load_single(path, [*settings, _setting(key, value, start)]),
+                lambda value: load_case(path, [*settings, _setting(key, value, start)]),
                 start,
                 hours,
                 whole=isinstance(start, int),
@@ -49,11 +50,11 @@ def solve(
     return 0 if solved.met else NOT_MET
 
 
-def _start(case: "Case", key: str) -> float:
+def _start(case: "Case | DriveCase", key: str) -> float:
     """Return the value that the case has, an integer where only whole numbers are allowed."""
-    table, _, name = key.partition(".")
-    given = case.inputs.get(table)
-    value = given.get(name) if isinstance(given, dict) else None
+    from wearsim.runner.design import value_in
+
+    value = value_in(case, key)
     if isinstance(value, bool) or not isinstance(value, int | float):
         what = "is not in the case" if value is None else f"is {value!r}"
         message = f"--solve-for needs a key that holds one number, but it {what}: give the case one"
@@ -72,11 +73,10 @@ def _setting(key: str, value: float, start: float) -> str:
 def _show(solved: "Solved", path: Path, key: str, hours: float, start: float, as_json: bool) -> None:
     from wearsim.quantities import grouped
     from wearsim.report.answer import answer
-    from wearsim.result.service import life_json
 
     result = solved.trial.result
     if as_json:
-        content = {**life_json(result), "solve_for": _json(solved, key, hours)}
+        content = {**result.summary(), "solve_for": _json(solved, key, hours)}
         print_json(content, path, result.warnings)
     else:
         label = "Solved " if solved.met else "Nearest"

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from scipy.optimize import brentq
 
 from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_result import DriveLife
+from wearsim.drive.simulate import simulate
 from wearsim.errors import WearsimError
 from wearsim.result import WearResult
-from wearsim.simulation import simulate
 
 _FACTOR = 2.0
 """Between values tried on the way to a bracket."""
@@ -28,7 +30,7 @@ class SolveTrial:
 
     value: float  # of the key
     hours: float  # life, or twice the required hours where it is at least that [h]
-    result: WearResult  # the run
+    result: WearResult | DriveLife  # the run
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,7 @@ class Solved:
 class _Lives:
     """Lives by value, each calculated once."""
 
-    def __init__(self, case_at: Callable[[float], Case], hours: float, whole: bool) -> None:
+    def __init__(self, case_at: Callable[[float], Case | DriveCase], hours: float, whole: bool) -> None:
         self.case_at, self.required, self.whole = case_at, hours, whole
         self.found: dict[float, SolveTrial | None] = {}
         self.failure: WearsimError | None = None
@@ -76,7 +78,9 @@ class _Lives:
         return SolveTrial(value, result.life.hours_run, result)
 
 
-def solve_for(case_at: Callable[[float], Case], start: float, hours: float, whole: bool = False) -> Solved:
+def solve_for(
+    case_at: Callable[[float], Case | DriveCase], start: float, hours: float, whole: bool = False
+) -> Solved:
     """Find the value of a key at which a case lives as long as required.
 
     From the start the value is doubled or halved, to the side on which the life comes

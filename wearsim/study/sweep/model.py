@@ -18,7 +18,6 @@ from wearsim.input.other_files import check_command
 from wearsim.input.schema import CaseTables, PlacedSprocketTable
 from wearsim.input.schema.table import Table, without_numbers
 from wearsim.runner.design import Design, design, replaced
-from wearsim.runner.drive_cases import kind_of
 from wearsim.study.sweep.keys import Range, SweepTables
 
 MAX_CASES = 10_000_000
@@ -57,7 +56,7 @@ def load_sweep(source: CaseSource, overrides: Sequence[str] = (), case: GivenInp
     check_command(document.data, document.faults.file, "life")
     title = {"title": tables.title}
     report_progress = retitled({**document.data, **title}, {**written.data, **title})["title"]
-    cases = design(document, keys, rows, place, kind_of(document.data))
+    cases = design(document, keys, rows, place)
     _check_values(given, document, cases, axes)
     return Sweep(report_progress, tuple(axis.keys for axis in axes), cases)
 

@@ -17,7 +17,7 @@ from wearsim.study.sweep.model import Sweep
 
 def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
     """Return a sweep as a Markdown table."""
-    parts = sweep.design.kind.parts
+    parts = sweep.design.parts
     head = [*sweep.design.keys, "life, h", "ended by", *(f"{name}, h" for name in parts)]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     for row in table.to_dict("records"):

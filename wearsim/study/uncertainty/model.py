@@ -9,9 +9,8 @@ import numpy as np
 from scipy.stats import qmc
 
 from wearsim.geometry.profile_points import Vector
-from wearsim.input.document import CaseSource, read_document
+from wearsim.input.document import CaseSource
 from wearsim.runner.design import Design
-from wearsim.runner.drive_cases import kind_of
 from wearsim.runner.scatter import ScatteredCase, load_scattered
 
 Method = Literal["sobol", "lhs", "random"]
@@ -40,8 +39,7 @@ def load_uncertainty(
     least_horizon: float | None = None,
 ) -> UncertaintyStudy:
     """Return the samples of a case."""
-    kind = kind_of(read_document(source, overrides).data)
-    scattered = load_scattered(source, overrides, least_horizon, kind)
+    scattered = load_scattered(source, overrides, least_horizon)
     shares = unit_samples(len(scattered.scatters), samples, seed, method)
     return UncertaintyStudy(scattered, method, seed, scattered.design(shares))
 

@@ -58,12 +58,12 @@ class UncertaintyAnswer:
     @property
     def ends_first(self) -> dict[str, float]:
         """Share of the samples in which a part of a whole drive ends first, by its name."""
-        return {name: float((self.sound["stop"] == name).mean()) for name in self.study.design.kind.parts}
+        return {name: float((self.sound["stop"] == name).mean()) for name in self.study.design.parts}
 
     @property
     def medians(self) -> dict[str, float]:
         """Median life of every part of a whole drive; infinite where half of the runs did not reach it."""
-        columns = zip(self.study.design.kind.parts, life_columns(self.study.design), strict=True)
+        columns = zip(self.study.design.parts, life_columns(self.study.design), strict=True)
         return {
             name: float(np.quantile(self.sound[column].fillna(math.inf), 0.5, method="higher"))
             for name, column in columns
