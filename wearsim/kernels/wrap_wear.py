@@ -1,4 +1,4 @@
-"""Wear by contacts that dwell: each event presses its roller on the worn outline and wears it."""
+"""Wear by contacts that rest: each event presses its roller on the worn outline and wears it."""
 
 from __future__ import annotations
 

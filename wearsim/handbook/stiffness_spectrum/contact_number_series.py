@@ -46,8 +46,8 @@ def direct_coefficients(wheel: Wheel, contact_ratio: float, harmonics: ArrayLike
         C(n).
     """
     n = np.asarray(harmonics)
-    rotated = np.exp(-1j * n[:, np.newaxis] * wheel.tooth_angles)
-    return np.asarray(_pulse(wheel, contact_ratio, n) * rotated.sum(axis=1))
+    phasors = np.exp(-1j * n[:, np.newaxis] * wheel.tooth_angles)
+    return np.asarray(_pulse(wheel, contact_ratio, n) * phasors.sum(axis=1))
 
 
 def _pulse(wheel: Wheel, contact_ratio: float, n: NDArray[np.integer]) -> Floats:

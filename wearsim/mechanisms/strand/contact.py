@@ -125,8 +125,8 @@ class StrandMechanism:
         touching = inside > 0.0
         distance = -np.sqrt(inside[touching])
         turn = np.arctan2(self.strand.height, distance) - np.arctan2(centre_y[touching], centre_x[touching])
-        rotated = float(turn.max() - turn.min()) % (2.0 * math.pi)
-        return rotated * self.strand.centrode_radius / self.pitch
+        engaged = float(turn.max() - turn.min()) % (2.0 * math.pi)
+        return engaged * self.strand.centrode_radius / self.pitch
 
     def assumptions(self) -> list[str]:
         """Return what this picture takes for granted."""

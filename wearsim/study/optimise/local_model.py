@@ -38,11 +38,11 @@ def proposals(
     if middle is None or not free.size or best.error:
         return []
     near = _alike(study, tried, best)
-    requested = [(radius, margin, -1) for radius in radii for margin in margins]
-    requested += [(max(radii), max(margins), kept) for kept in range(free.size if free.size > 1 else 0)]
+    wanted = [(radius, margin, -1) for radius in radii for margin in margins]
+    wanted += [(max(radii), max(margins), kept) for kept in range(free.size if free.size > 1 else 0)]
     models = {radius: _model(study, near, middle[free], free, radius) for radius in radii}
     found = []
-    for radius, margin, kept in requested:
+    for radius, margin, kept in wanted:
         model = models[radius]
         if model is not None:
             place = middle.copy()

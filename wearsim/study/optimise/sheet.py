@@ -10,7 +10,7 @@ import pandas as pd
 from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
-from wearsim.report.text_lines import defaults_by_kind
+from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.optimise.design_files import save_designs
 from wearsim.study.optimise.trials import (
@@ -100,15 +100,12 @@ def optimise_warnings(outcome: OptimiseOutcome) -> tuple[str, ...]:
 
 def _of_designs(outcome: OptimiseOutcome) -> list[str]:
     """Warnings of the best designs, those that differ in their numbers only as one."""
-    report_progress = defaults_by_kind(
+    counts = counts_by_kind(
         f"design {_name(number, outcome)}: {text}"
         for number, one in enumerate(outcome.front, 1)
         for text in filter(None, one.warnings.split("\n"))
     )
-    return [
-        first if count == 1 else f"{first} (and of {count - 1} more designs)"
-        for first, count in report_progress
-    ]
+    return [first if count == 1 else f"{first} (and of {count - 1} more designs)" for first, count in counts]
 
 
 def optimise_text(outcome: OptimiseOutcome) -> str:

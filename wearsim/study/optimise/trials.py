@@ -10,7 +10,7 @@ import pandas as pd
 from wearsim.case.model import Case
 from wearsim.errors import StudyError, WearsimError
 from wearsim.input.schema.study_tables import MeasureLimit
-from wearsim.report.text_lines import defaults_by_kind
+from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.design import Design
 from wearsim.runner.shard import loaded_cases
 from wearsim.simulation import new_peak_pressure
@@ -196,7 +196,7 @@ def check_feasible(study: OptimiseStudy, candidates: Sequence[Candidate]) -> Non
 
 def commonest_reason(study: OptimiseStudy, candidates: Sequence[Candidate]) -> str:
     """Return why most designs that are not feasible are not."""
-    reasons = defaults_by_kind(text for candidate in candidates for text in _reasons(study, candidate))
+    reasons = counts_by_kind(text for candidate in candidates for text in _reasons(study, candidate))
     return f"{reasons[0][1]} of them by {reasons[0][0]}" if reasons else ""
 
 

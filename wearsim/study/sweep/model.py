@@ -56,10 +56,10 @@ def load_sweep(source: CaseSource, overrides: Sequence[str] = (), case: GivenInp
     ]
     check_command(document.data, document.faults.file, "life")
     title = {"title": tables.title}
-    report_progress = retitled({**document.data, **title}, {**written.data, **title})["title"]
+    retold = retitled({**document.data, **title}, {**written.data, **title})["title"]
     cases = design(document, keys, rows, place, kind_of(document.data))
     _check_values(given, document, cases, axes)
-    return Sweep(report_progress, tuple(axis.keys for axis in axes), cases)
+    return Sweep(retold, tuple(axis.keys for axis in axes), cases)
 
 
 @dataclass(frozen=True)
