@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wearsim.chain.chain_length import even_links
 from wearsim.chain.loop_faults import number_faults, overlap_faults, path_faults, turning_faults
@@ -163,11 +162,6 @@ class ChainLoop:
     def teeth_in_mesh(self) -> Floats:
         """Wrap angle over pitch angle of each wheel, shape (n,)."""
         return self.wrap_angles * self.teeth / FULL_TURN
-
-    @property
-    def reversals(self) -> NDArray[np.bool_]:
-        """Whether the joints bend the other way on a wheel, as it lies outside, shape (n,)."""
-        return np.array([wheel.outside for wheel in self.wheels])
 
     @property
     def links(self) -> float:

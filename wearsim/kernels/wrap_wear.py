@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
 # rows of the table of the unworn outline
 UNWORN_X, UNWORN_Y, UNWORN_NORMAL_X, UNWORN_NORMAL_Y, UNWORN_CURVATURE, SPACING = range(6)
-UNWORN_ROWS = 6
 
 # numbers of a step
 (
