@@ -16,7 +16,7 @@ class CaseRecord:
         self.faults = faults
         self.inputs: dict[str, Any] = tables.model_dump(exclude_none=True)
         self.files: list[Path] = []
-        self.assumptions: list[str] = list(faults.notes)
+        self.assumptions: list[str] = []
         self.warnings: list[str] = []
 
     def take(self, key: str, value: float | int | str | list[int], why: str) -> None:
