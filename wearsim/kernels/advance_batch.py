@@ -31,7 +31,7 @@ from wearsim.kernels.signatures import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 LIMIT, HORIZON_TIME, LIFE_TOLERANCE, MODULUS, DIFFUSION = range(5)
 """Of the numbers of a flank: depth allowed, time of the horizon, tolerance of the life, E*, e."""

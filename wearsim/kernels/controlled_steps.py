@@ -30,7 +30,7 @@ from wearsim.kernels.signatures import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 STATE_ROWS = 8
 """Of a state on the path: x, y, depth, rate, the direction a point recedes in (2), 1/rho_H."""

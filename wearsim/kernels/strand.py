@@ -9,7 +9,7 @@ from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import CONTACT
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 
 @kernel(CONTACT)

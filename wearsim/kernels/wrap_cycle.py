@@ -36,7 +36,7 @@ from wearsim.kernels.wrap_equilibrium import (
 )
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 _TOLERANCE = 1e-9
 LOOSEST = 1e-2

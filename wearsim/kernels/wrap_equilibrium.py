@@ -9,7 +9,7 @@ from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 SEATED, JUMPED, STALLED = 0, 1, 2
 """What a solve ends with: an equilibrium, a roller over a tip, or neither within the iterations."""

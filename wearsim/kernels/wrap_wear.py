@@ -22,7 +22,7 @@ from wearsim.kernels.half_space import CONVERGED, NOT_CONVERGED, power_contact
 from wearsim.kernels.signatures import TABLE, VECTOR, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 # rows of the table of the unworn outline
 UNWORN_X, UNWORN_Y, UNWORN_NORMAL_X, UNWORN_NORMAL_Y, UNWORN_CURVATURE, SPACING = range(6)
