@@ -115,7 +115,7 @@ def _outside_bands(case: Case, values: Sequence[FittedCoefficient]) -> Iterator[
     for one in values:
         if one.key in parts:
             part, of = parts[one.key]
-            yield from band_warning(one.value / one.given, case.drive.wear_band(part, case.wear), of)
+            yield from band_warning(one.value / one.in_case, case.drive.wear_band(part, case.wear), of)
 
 
 def warnings_of_readings(observations: Sequence[Observation], state: PredictedState) -> Iterator[str]:

@@ -53,7 +53,7 @@ def optimise(
         _show_plan(study, options, identity)
         return 0
     text = f"optimising {study.case.title}"
-    with in_batches(study.given, options, identity, text, evaluations + 1) as run:
+    with in_batches(study.unchanged, options, identity, text, evaluations + 1) as run:
         outcome = best_designs(study, run)
     from wearsim.study.optimise.sheet import (
         optimise_json,
@@ -91,9 +91,9 @@ def _show_plan(study: "OptimiseStudy", options: StudyOptions, identity: Mapping[
 
     options.workers()
     if options.out is not None:
-        check_store(options.out, study.given, identity, options.force)
+        check_store(options.out, study.unchanged, identity, options.force)
     points = study.space.start(4, study.seed, study.values)
-    seconds, count = timed(study.design([study.space.row(point) for point in points]))
+    seconds, count = timed(study.design([study.space.values(point) for point in points]))
     click.echo(f"designs      {study.evaluations} at most, beside the case as given")
     click.echo(
         f"time         at least {seconds * study.evaluations:.3g} s in one thread, from {count} designs"

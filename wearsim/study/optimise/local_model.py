@@ -34,7 +34,7 @@ def proposals(
     largest radius and margin there is also a point with each parameter in turn as it is: designs
     that fail have no measures, so that a model may lead into them.
     """
-    middle, free = study.space.place(best.values), np.flatnonzero(~study.space.whole)
+    middle, free = study.space.point(best.values), np.flatnonzero(~study.space.whole)
     if middle is None or not free.size or best.error:
         return []
     near = _alike(study, tried, best)
@@ -56,7 +56,7 @@ def _alike(study: OptimiseStudy, tried: Sequence[Candidate], best: Candidate) ->
     lists = np.flatnonzero(study.space.whole)
     found = []
     for one in tried:
-        place = study.space.place(one.values)
+        place = study.space.point(one.values)
         if place is None or one.error or any(one.values[at] != best.values[at] for at in lists):
             continue
         found.append((place, np.log([one.measures[name] for name in study.measures])))

@@ -60,7 +60,7 @@ class OptimiseOutcome:
     """What came of a search."""
 
     study: OptimiseStudy  # what was asked
-    given: Candidate  # the case as it is
+    unchanged: Candidate  # the case as it is
     candidates: tuple[Candidate, ...]  # what was tried, in order
     # the best design, or those than which none is better in all objectives; none where no design is
     # feasible
@@ -80,7 +80,7 @@ class Trials:
     def __init__(self, study: OptimiseStudy, run: Run) -> None:
         self.study, self.run = study, run
         self.found: dict[tuple[Any, ...], Candidate] = {}
-        (self.given,) = self._tried(study.given, [study.values], 0)
+        (self.unchanged,) = self._tried(study.unchanged, [study.values], 0)
 
     @property
     def left(self) -> int:

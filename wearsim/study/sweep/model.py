@@ -64,7 +64,7 @@ def load_sweep(source: CaseSource, overrides: Sequence[str] = (), case: GivenInp
 
 @dataclass(frozen=True)
 class _Axis:
-    place: str  # table of the sweep that it stands in
+    table: str  # table of the sweep that it stands in
     keys: tuple[str, ...]  # keys of the case that go together
     rows: list[tuple[Any, ...]]  # their values
 
@@ -83,7 +83,7 @@ def _check_values(given: Document, document: Document, cases: Design, axes: Sequ
                 tables = replaced(tables, key.split("."), value)
             for key, message in _wrong(tables, model):
                 if any(_holds(swept, key) for swept in axis.keys):
-                    given.faults.add(f"{axis.place}.{key}", message)
+                    given.faults.add(f"{axis.table}.{key}", message)
     given.faults.check()
 
 
