@@ -24,7 +24,7 @@ def load_share(x: Vector, contact_end: float, contact_start: float, pitch: float
     Parameters
     ----------
     x : numpy.ndarray
-        Distance of the roller centre before the pitch line [mm].
+        Distance of the roller centre before the line of the pitch point [mm].
     contact_end, contact_start : float
         x_min and x_max [mm].
     pitch : float
