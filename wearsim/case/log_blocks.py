@@ -28,7 +28,7 @@ def log_blocks(case: ChainRecord, most_blocks: int, chain: Chain) -> LogBlocks |
     """Return the blocks of the log of a case, of each flank so many at most; 0 for no limit."""
     table = case.tables.load
     assert table.duty_file is not None
-    path = case.path(_KEY, table.duty_file)
+    path = case.path(table.duty_file)
     found = read_log(path, _KEY, case.faults)
     bins = table.duty_bins
     if bins is None:

@@ -29,7 +29,7 @@ class CaseRecord:
         shown = f"{value:.6g}" if isinstance(value, float) else value
         self.assumptions.append(f"{key} = {shown} ({why})")
 
-    def path(self, key: str, name: str) -> Path:
+    def path(self, name: str) -> Path:
         """Return the place of a file that the case names."""
         path = self.folder / name
         self.files.append(path)

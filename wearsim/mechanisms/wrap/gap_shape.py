@@ -205,7 +205,7 @@ def _drawn(case: ChainRecord, table: SprocketTable, chain: Chain, nodes: int) ->
 
 def _points(case: ChainRecord, key: str, name: str, table: SprocketTable) -> tuple[Vector, Vector] | None:
     """Coordinates from the file, None where there was a fault."""
-    path = case.path(key, name)
+    path = case.path(name)
     if table.points_file:
         found = read_points(path, key, case.faults)
         step = 0.0 if found is None else rounding_step(np.column_stack(found), 1.0)

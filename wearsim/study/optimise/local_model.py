@@ -40,7 +40,7 @@ def proposals(
     near = _alike(study, tried, best)
     wanted = [(radius, margin, -1) for radius in radii for margin in margins]
     wanted += [(max(radii), max(margins), kept) for kept in range(free.size if free.size > 1 else 0)]
-    models = {radius: _model(study, near, middle[free], free, radius) for radius in radii}
+    models = {radius: _model(near, middle[free], free, radius) for radius in radii}
     found = []
     for radius, margin, kept in wanted:
         model = models[radius]
@@ -63,9 +63,7 @@ def _alike(study: OptimiseStudy, tried: Sequence[Candidate], best: Candidate) ->
     return found
 
 
-def _model(
-    study: OptimiseStudy, near: list[tuple[Vector, Vector]], middle: Vector, free: Places, radius: float
-) -> Vector | None:
+def _model(near: list[tuple[Vector, Vector]], middle: Vector, free: Places, radius: float) -> Vector | None:
     """Coefficients of each measure, shape (terms, measures)."""
     offsets = np.array([(place[free] - middle) / radius for place, _ in near])
     logs = np.array([measures for _, measures in near])
