@@ -265,8 +265,8 @@ def test_a_page_fits_and_asks_nobody_else(watched, serve, text, width, scheme):
     server = serve(text)
     opened(watched, server)
     watched.wait_for_selector(".ws-plot .main-svg")
-    requested = {re.match(r"\w+://[^/]*|\w+:", url)[0] for url in watched.requested}
-    assert requested <= {server.url.rstrip("/"), "data:", "blob:"}
+    origins = {re.match(r"\w+://[^/]*|\w+:", url)[0] for url in watched.origins}
+    assert origins <= {server.url.rstrip("/"), "data:", "blob:"}
     assert watched.said == []
     eventually(lambda: watched.evaluate("document.documentElement.scrollWidth"), lambda found: found <= width)
     ground = watched.evaluate("getComputedStyle(document.body).backgroundColor")
@@ -407,7 +407,7 @@ def test_a_reloaded_page_begins_with_the_file(watched, serve):
     page.get_by_text("must be a readable file").wait_for()
 
 
-def requested(server, path="/", method="GET", **headers):
+def status_of(server, path="/", method="GET", **headers):
     """Status of the answer to a request."""
     connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=20)
     connection.request(method, path, headers=headers)
@@ -439,10 +439,10 @@ def test_other_sites_are_refused_on_http_polling_and_websocket(serve):
     server = serve(STRAND)
     own, evil = f"127.0.0.1:{server.port}", "evil.example"
     polling = f"{SOCKET}&transport=polling"
-    assert requested(server) == 200
-    assert requested(server, Host=f"localhost:{server.port}") == 200
-    assert requested(server, polling) == 200
-    assert requested(server, polling, Origin=f"http://{own}") == 200
+    assert status_of(server) == 200
+    assert status_of(server, Host=f"localhost:{server.port}") == 200
+    assert status_of(server, polling) == 200
+    assert status_of(server, polling, Origin=f"http://{own}") == 200
     assert "101" in handshake(server, Origin=f"http://{own}")
     for headers in (
         {"Origin": f"http://{evil}"},
@@ -453,9 +453,9 @@ def test_other_sites_are_refused_on_http_polling_and_websocket(serve):
         {"Origin": f"https://{own}"},
         {"Origin": "http://127.0.0.1:1"},
     ):
-        assert requested(server, **headers) == 403, headers
-        assert requested(server, polling, **headers) == 403, headers
-        assert requested(server, polling, "POST", **headers) == 403, headers
+        assert status_of(server, **headers) == 403, headers
+        assert status_of(server, polling, **headers) == 403, headers
+        assert status_of(server, polling, "POST", **headers) == 403, headers
         assert " 403 " in handshake(server, **headers) + " ", headers
 
 
@@ -499,7 +499,7 @@ def test_the_browser_is_opened(serve, tmp_path):
     server = serve(STRAND, browser=browser)
     eventually(told.exists, bool)
     eventually(told.read_text, lambda found: found == f"{server.url}\n")
-    assert requested(server) == 200
+    assert status_of(server) == 200
 
 
 def test_nothing_is_left_behind(watched, serve, tmp_path):

@@ -18,7 +18,7 @@ def power(value):
 
 
 @pytest.fixture
-def requested(cli, drive):
+def life(cli, drive):
     """Function that runs the test drive with a hardened sprocket."""
 
     def run(*arguments):
@@ -28,11 +28,11 @@ def requested(cli, drive):
 
 
 @pytest.fixture
-def printed(requested, cli):
+def printed(life, cli):
     """Function that gives the object of such a run, held against the schema."""
 
     def run(*arguments):
-        found = json.loads(requested("--json", *arguments).out)
+        found = json.loads(life("--json", *arguments).out)
         schema = json.loads(cli("schema", "--result").out)
         jsonschema.Draft202012Validator(schema).validate(found)
         return found
@@ -49,51 +49,51 @@ def governing(found):
     return found["governing_life"], found["governing_life_hours"]
 
 
-def test_wear_governs(requested, printed):
+def test_wear_governs(life, printed):
     found = printed()
     wear, fatigue = found["life_hours"], found["sprocket_fatigue_life_hours"]
     assert wear < fatigue
     assert governing(found) == ("wear", wear)
     expected = f"Governs wear, {grouped(wear)} h (contact fatigue of the sprocket {grouped(fatigue)} h)"
-    assert expected in one_line(requested())
+    assert expected in one_line(life())
 
 
-def test_contact_fatigue_governs(requested, printed):
+def test_contact_fatigue_governs(life, printed):
     found = printed(*MILD)
     wear, fatigue = found["life_hours"], found["sprocket_fatigue_life_hours"]
     assert fatigue < wear
     assert governing(found) == ("sprocket_fatigue", fatigue)
-    text = one_line(requested(*MILD))
+    text = one_line(life(*MILD))
     assert (f"Governs contact fatigue of the sprocket, {grouped(fatigue)} h (wear {grouped(wear)} h)") in text
     assert "contact fatigue of the sprocket comes before the wear" in text
 
 
-def test_fatigue_that_never_comes(requested, printed):
+def test_fatigue_that_never_comes(life, printed):
     found = printed(*power(1))
     assert found["sprocket_fatigue_life_hours"] is None
     assert governing(found) == ("wear", found["life_hours"])
-    assert "(contact fatigue of the sprocket never)" in one_line(requested(*power(1)))
+    assert "(contact fatigue of the sprocket never)" in one_line(life(*power(1)))
 
 
-def test_stress_that_is_allowed_at_no_time(requested, printed):
+def test_stress_that_is_allowed_at_no_time(life, printed):
     found = printed(*power(14))
     assert found["sprocket_fatigue_life_hours"] == 0.0
     assert governing(found) == ("sprocket_fatigue", 0.0)
-    text = one_line(requested(*power(14)))
+    text = one_line(life(*power(14)))
     assert "Governs contact fatigue of the sprocket, from the start (wear" in text
     assert "more than the sprocket endures for any time" in text
 
 
-def test_nothing_within_the_run(requested, printed):
+def test_nothing_within_the_run(life, printed):
     short = ("--set", "run.horizon_hours=50")
     assert governing(printed(*short)) == (None, None)
     expected = "Governs nothing within 50 h: wear > 50 h, contact fatigue of the sprocket 7 958 h"
-    assert expected in one_line(requested(*short))
+    assert expected in one_line(life(*short))
 
 
-def test_required_hours_are_those_of_wear_and_fatigue(requested):
-    assert requested(*MILD, "--require-hours", "7900").code == 0
-    done = requested(*MILD, "--require-hours", "8000")
+def test_required_hours_are_those_of_wear_and_fatigue(life):
+    assert life(*MILD, "--require-hours", "7900").code == 0
+    done = life(*MILD, "--require-hours", "8000")
     assert done.code == 4
     assert "drive: sprocket fatigue life 7958.17 h is below 8000 h" in done.err
     assert "drive: life" not in done.err
@@ -113,11 +113,11 @@ def test_gears_say_which_governs(cli):
     assert f"Governs wear, {grouped(found['life_hours'])} h (contact fatigue of the pinion" in text
 
 
-def test_with_and_without_side_by_side(requested, cli, drive, tmp_path):
-    assert requested("--out", tmp_path / "run").code == 0
+def test_with_and_without_side_by_side(life, cli, drive, tmp_path):
+    assert life("--out", tmp_path / "run").code == 0
     done = cli("compare", tmp_path / "run", drive("plain"), "--out", tmp_path / "both")
     assert done.code == 0
-    found = json.loads(requested("--json").out)
+    found = json.loads(life("--json").out)
     with (tmp_path / "both" / "summary.csv").open() as file:
         run, plain = csv.DictReader(file)
     assert run["governing_life"] == "wear"

@@ -16,10 +16,10 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 import wearsim.wear.per_cycle
 run = wearsim.wear.per_cycle.run_per_cycle
 
-def started(contact, law, criteria, horizon, cycles_per_update):
-    run(contact, law, criteria, 100.0, 1)
+def started(contact, law, stop_limits, horizon, cycles_per_update):
+    run(contact, law, stop_limits, 100.0, 1)
     print("started", flush=True)
-    return run(contact, law, criteria, horizon, cycles_per_update)
+    return run(contact, law, stop_limits, horizon, cycles_per_update)
 
 wearsim.wear.per_cycle.run_per_cycle = started
 import wearsim.cli

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from wearsim.catalogue.catalogues import catalogue_rows
-from wearsim.chain.practice import geometric_mean, opinions, outside_practice, pressure_velocity
+from wearsim.chain.practice import geometric_mean, opinions, outside_practice
 from wearsim.chain.recommended_lubrication import (
     lubrication_life_factor,
     lubrication_speed_limits,
@@ -167,14 +167,6 @@ def test_life_with_another_lubrication_than_a_bath(drive, supplied, environment,
 @pytest.mark.parametrize("supplied", ["periodic", "grease"])
 def test_a_brush_now_and_then_is_less_than_drip(supplied):
     assert lubrication_life_factor(supplied, "drip").state == "periodic"
-
-
-def test_pressure_times_speed(drive):
-    slow, fast = pressure_velocity(drive()), pressure_velocity(drive(3))
-    assert slow.value == pytest.approx(42.0 * 0.8, rel=1e-3)
-    assert slow.ok
-    assert fast.value == pytest.approx(26.33 * 6.35, rel=1e-3)  # no. 80 of 30 kW, at its ANSI rating
-    assert not fast.ok
 
 
 @pytest.mark.parametrize(

@@ -67,7 +67,6 @@ def test_span_runs_through_a_wheel():
     """An outside wheel draws the upper strand down upon a wheel below it, on the lower strand."""
     rows = (LEFT, ("low", 120.0, -20.0, 11, True), RIGHT, ("idler", 280.0, 40.0, 11, True))
     loop = ChainLoop(PITCH, wheels(*rows))
-    assert loop.reversals.tolist() == [False, True, False, True]
     with pytest.raises(
         CaseError, match=r"span 'idler' to 'left' must clear wheel 'low', runs [\d.]+ mm from"
     ):

@@ -255,9 +255,9 @@ class TestLog:
         found = log_bins(log, *bins)
         assert sums(found) == pytest.approx(kept, rel=1e-12)
         assert len(found) <= bins[0] * bins[1]
-        for greatest in (len(found), 12, 3, 1):
-            fewer = merged(found, greatest)
-            assert len(fewer) == min(greatest, len(found))
+        for count in (len(found), 12, 3, 1):
+            fewer = merged(found, count)
+            assert len(fewer) == min(count, len(found))
             assert sums(fewer) == pytest.approx(kept, rel=1e-12)
 
     def test_the_smallest_joins_the_nearest(self):

@@ -135,8 +135,8 @@ def plan(*policies):
 def test_a_single_elongation_of_maintenance(last):
     """A turned sprocket whose limit was not reached has no cost."""
     straight = ReplacementPolicy(0.01, False, 7000.0, Life(1e9, 30_000.0), 0.01, 12.0)
-    rotated = ReplacementPolicy(0.01, True, 7000.0, last, 0.01, 9.0 if isinstance(last, Life) else None)
-    figure = maintenance_figure(plan(straight, rotated))
+    turned = ReplacementPolicy(0.01, True, 7000.0, last, 0.01, 9.0 if isinstance(last, Life) else None)
+    figure = maintenance_figure(plan(straight, turned))
     figure.draw_without_rendering()
     for panel in figure.axes:
         assert panel.get_xlim()[0] == panel.get_ylim()[0] == 0.0

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from wearsim.errors import GeometryError
-from wearsim.geometry import worn_tooth
 from wearsim.geometry.forms import iso606
-from wearsim.geometry.forms.ansi_b29 import TypeIITooth, ansi_b29_gap
-from wearsim.geometry.forms.gost591 import GostTooth, gost591_gap, tooth_height_factor, tooth_width
+from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
+from wearsim.geometry.forms.gost591 import GostTooth, gost591_gap, tooth_height_factor
 from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.gap import Gap, pitch_diameter, seat_height
 from wearsim.geometry.segments import ArcSegment, LineSegment, points_along
@@ -120,16 +119,7 @@ def test_gap_by_hand() -> None:
     assert gap.tip_land == pytest.approx(24.0 * (math.pi / 4.0 - angle))
     assert gap.pointed_radius == math.inf
     assert not gap.truncated
-    assert gap.tangency_error < 1e-15
     assert math.degrees(gap.pressure_angle(math.radians(30.0))) == pytest.approx(15.0)
-
-
-def test_tangency_error_sees_a_step_and_a_kink() -> None:
-    seat = ArcSegment((0.0, 10.0), 2.0, -QUARTER, 0.0)
-    step = Gap((seat, LineSegment((2.0, 10.5), QUARTER, 4.0)), 4, 10.0, 1.9, 12.0, "step")
-    assert step.tangency_error == pytest.approx(0.05)
-    kink = Gap((seat, LineSegment((2.0, 10.0), QUARTER - 0.1, 4.0)), 4, 10.0, 1.9, 12.0, "kink")
-    assert kink.tangency_error == pytest.approx(0.1)
 
 
 def test_pointed_tooth_is_cut_off_where_its_flanks_meet() -> None:
@@ -203,14 +193,13 @@ def test_seat_height() -> None:
 @pytest.mark.parametrize("teeth", [5, 6, 7, 8])
 def test_iso_gap_of_few_teeth_exists(form: str, teeth: int) -> None:
     gap = iso606_gap(12.7, 8.51, teeth, form=form)
-    assert gap.tangency_error < 1e-14
     assert gap.tip_land > 0.0
 
 
 @pytest.mark.parametrize(("build", "fewest"), [(ansi_b29_gap, 5), (gost591_gap, 6)])
 def test_concave_gap_of_few_teeth(build: type[Gap], fewest: int) -> None:
     """1.4 sin(17 - 64/z) > 0.8 sin(18 - 56/z) from z = 5 on, with 1.24 from z = 6 on."""
-    assert build(12.7, 8.51, fewest).tangency_error < 1e-14
+    assert build(12.7, 8.51, fewest).tip_land > 0.0
     with pytest.raises(GeometryError, match=f"z = {fewest - 1}: working arc and head overlap"):
         build(12.7, 8.51, fewest - 1)
 
@@ -260,20 +249,5 @@ def test_gost_refuses_what_its_table_leaves_out(ratio: float) -> None:
     assert gost591_gap(10.0 * ratio, 10.0, 25, tip_diameter=tip).tip_radius == 0.5 * tip
 
 
-def test_gost_displacement_and_width() -> None:
+def test_gost_displacement() -> None:
     assert GostTooth(25.4, 15.88, 25).displacement == pytest.approx(0.762)
-    widths = [tooth_width(10.0, strands) for strands in (1, 2, 3, 4)]
-    np.testing.assert_allclose(widths, [9.15, 8.85, 8.85, 8.3])
-
-
-def test_pointed_height_of_a_long_pitch_is_not_a_number() -> None:
-    """Heads do not meet where P/2 - 1.4 Dr exceeds F."""
-    assert math.isnan(TypeIITooth(50.8, 7.92, 20).pointed_height)
-
-
-def test_pin_must_reach_the_bottom() -> None:
-    gap = iso606_gap(12.7, 8.51, 17)
-    assert worn_tooth.seated_radius(gap, 8.51) == pytest.approx(gap.bottom_radius + 4.255)
-    for diameter in (0.0, 8.6):
-        with pytest.raises(GeometryError, match="measuring pin: its diameter"):
-            worn_tooth.seated_radius(gap, diameter)

@@ -183,7 +183,7 @@ def test_kind_that_is_no_word(value):
         ("load.x.y=2", "--set load.x: unknown table"),
         ("uncertainty=3", "--set uncertainty: must be a table (got 3)"),
         ("optimise.objectives=3", "--set optimise.objectives: must be a list of values (got 3)"),
-        ("chain.exploitation_factor=[1]", "--set chain.exploitation_factor: unknown key"),
+        ("chain.joint_application_factor=[1]", "--set chain.joint_application_factor: unknown key"),
     ],
 )
 def test_fault_of_a_setting_names_what_was_typed(setting, told):

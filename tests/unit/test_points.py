@@ -61,9 +61,9 @@ def test_working_side_is_on_the_left_of_the_gap() -> None:
     left = Profile(*circle(30))
     assert working_side(left) is left
     right = Profile(-left.x, left.y)
-    rotated = working_side(right)
-    np.testing.assert_array_equal(rotated.x, left.x)
-    np.testing.assert_array_equal(rotated.curvature, left.curvature)
+    mirrored = working_side(right)
+    np.testing.assert_array_equal(mirrored.x, left.x)
+    np.testing.assert_array_equal(mirrored.curvature, left.curvature)
 
 
 def test_contact_range_of_a_circle() -> None:

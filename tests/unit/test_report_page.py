@@ -15,8 +15,6 @@ import wearsim
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
 from wearsim.files import file_names
 from wearsim.geometry.scene import Circle, Label, Scene, line
-from wearsim.mechanisms.gear_pair.scene import gear_scene
-from wearsim.mechanisms.strand.scene import strand_scene
 from wearsim.mechanisms.wrap.scene import roller_places, wrap_scene
 from wearsim.quantities import grouped
 from wearsim.report.answer import answer, ending, limit_state
@@ -88,7 +86,7 @@ def test_rollers_sit_in_the_gaps_of_the_drawn_wheel(role):
 def test_the_roller_of_a_strand_touches_the_drawn_flank():
     """The conjugate flank: touched by the roller one pitch before that of the pitch point, cut by none."""
     drive = wearsim.load_case(STRAND).drive
-    (outline,) = drawn(strand_scene(drive, 1), "worn")
+    (outline,) = drawn(drive.scene(1), "worn")
     wheel = shapely.Polygon(outline.vertices)
     pitch, height = drive.chain.pitch, drive.tooth.strand.height
     clear = [
@@ -101,7 +99,7 @@ def test_the_roller_of_a_strand_touches_the_drawn_flank():
 
 
 def test_circles_of_gears_are_to_scale():
-    scene = gear_scene(wearsim.load_case(GEARS).drive)
+    scene = wearsim.load_case(GEARS).drive.scene(1)
     assert [circle.radius for circle in drawn(scene, "pitch")] == [28.5, 91.5]
     (contact,) = drawn(scene, "contact")
     first, *_, last = contact.vertices

@@ -1,4 +1,4 @@
-"""Kernels of dwelling wear on arcs, steps and criteria of the engine, errors, and engagements."""
+"""Kernels of resting contacts on arcs, steps and stop limits of the engine, errors, and engagements."""
 
 from dataclasses import replace
 
@@ -177,7 +177,7 @@ def test_two_bodies_under_one_load_wear_alike():
     assert run.area == pytest.approx(2.0 * one.area, rel=1e-12)
 
 
-def test_the_criterion_that_is_met_first_is_named():
+def test_the_limit_that_is_met_first_is_named():
     tip = StopLimit("min_tip_land_mm", 1.0, lambda x, y, depth: 1e-3 - float(depth.max()))
     run = run_resting(Seat(), LAW, (*LIMIT, tip), 1e9, 0)
     assert run.met is tip

@@ -7,14 +7,14 @@ from wearsim.contact.stop_limits import depth_limit, first_limit_met, tip_land_l
 ZERO = np.zeros(3)
 
 
-def test_depth_criterion_looks_at_the_deepest_point() -> None:
+def test_depth_limit_looks_at_the_deepest_point() -> None:
     stop_limit = depth_limit(0.2)
     assert stop_limit.name == "critical_depth_mm"
     assert stop_limit.limit == 0.2
     assert stop_limit.margin(ZERO, ZERO, np.array([0.0, 0.15, 0.1])) == 0.2 - 0.15
 
 
-def test_tip_land_criterion_asks_the_tooth() -> None:
+def test_tip_land_limit_asks_the_tooth() -> None:
     stop_limit = tip_land_limit(3.0, lambda x, y: 5.0 - float(x[-1]))
     assert stop_limit.name == "min_tip_land_mm"
     assert stop_limit.margin(np.array([0.0, 0.0, 1.5]), ZERO, ZERO) == 0.5

@@ -91,8 +91,8 @@ class Dying:
 
     losses = (ConnectionError,)
 
-    def __init__(self, greatest):
-        self.greatest, self.deaths, self.opened, self.shards = greatest, 0, 0, []
+    def __init__(self, most_deaths):
+        self.most_deaths, self.deaths, self.opened, self.shards = most_deaths, 0, 0, []
 
     @contextmanager
     def open(self):
@@ -101,7 +101,7 @@ class Dying:
 
     def submit(self, function, shard):
         future = Future()
-        if self.deaths < self.greatest and shard.first % 2:
+        if self.deaths < self.most_deaths and shard.first % 2:
             self.deaths += 1
             future.set_exception(ConnectionError())
         else:
@@ -111,14 +111,14 @@ class Dying:
 
 
 def test_death_of_workers_loses_and_repeats_nothing(cases):
-    workers = Dying(greatest=3)
+    workers = Dying(most_deaths=3)
     assert same(run_study(cases, workers), run_study(cases, Threads(1)))
     assert workers.deaths == 3
     assert sorted(workers.shards) == [0, 3, 6, 9]
 
 
 def test_workers_stay_open_until_one_dies(cases):
-    workers = Dying(greatest=2)
+    workers = Dying(most_deaths=2)
     kept = SharedWorkers(workers)
     assert same(run_study(cases, kept), run_study(cases, Threads(1)))
     assert (workers.deaths, workers.opened) == (2, 2)
@@ -131,7 +131,7 @@ def test_workers_stay_open_until_one_dies(cases):
 
 def test_study_ends_when_all_workers_die(cases):
     with pytest.raises(StudyError, match="workers died 3 times"):
-        run_study(cases, Dying(greatest=99))
+        run_study(cases, Dying(most_deaths=99))
 
 
 def test_dates_of_a_case_have_a_hash():

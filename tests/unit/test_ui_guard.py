@@ -18,7 +18,7 @@ async def application(scope, receive, send):
         await send({"type": "websocket.accept" if scope["type"] == "websocket" else "ready"})
 
 
-def requested(kind="http", port=PORT, **headers):
+def messages(kind="http", port=PORT, **headers):
     """Messages that a request is answered with."""
     given = {"host": f"127.0.0.1:{port}"} | {k.replace("_", "-"): v for k, v in headers.items()}
     pairs = [(k.encode(), v.encode()) for k, v in given.items() if v is not None]
@@ -36,7 +36,7 @@ def requested(kind="http", port=PORT, **headers):
 
 def answered(**headers):
     """Whether both an HTTP request and a websocket are let through; they never differ."""
-    (start, *_), (first, *_) = requested(**headers), requested("websocket", **headers)
+    (start, *_), (first, *_) = messages(**headers), messages("websocket", **headers)
     through = start["status"] == 200
     assert through == (first["type"] == "websocket.accept")
     assert through or (start["status"] == 403 and first["type"] == "websocket.close")
@@ -118,17 +118,17 @@ def test_requests_that_a_browser_tells_to_be_of_another_site(site, mode, through
 
 
 def test_port_80_is_left_out_by_browsers():
-    assert requested(port=80, host="localhost", origin="http://localhost")[0]["status"] == 200
-    assert requested(port=80, host="evil.example")[0]["status"] == 403
+    assert messages(port=80, host="localhost", origin="http://localhost")[0]["status"] == 200
+    assert messages(port=80, host="evil.example")[0]["status"] == 403
 
 
 def test_lifespan_is_passed_on():
-    assert requested("lifespan") == [{"type": "ready"}]
+    assert messages("lifespan") == [{"type": "ready"}]
 
 
 @pytest.mark.parametrize("headers", [{}, {"origin": "null"}])
 def test_answers_forbid_frames_and_what_is_not_their_own(headers):
-    found = dict(requested(**headers)[0]["headers"])
+    found = dict(messages(**headers)[0]["headers"])
     assert found[b"x-frame-options"] == b"DENY"
     policy = found[b"content-security-policy"].decode()
     assert "default-src 'self'" in policy and "frame-ancestors 'none'" in policy
@@ -137,5 +137,5 @@ def test_answers_forbid_frames_and_what_is_not_their_own(headers):
 
 
 def test_a_refusal_says_why():
-    body = requested(host="evil.example")[1]["body"].decode()
+    body = messages(host="evil.example")[1]["body"].decode()
     assert body == "wearsim ui: the request must be to the loopback address that it printed\n"

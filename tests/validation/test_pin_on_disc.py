@@ -51,10 +51,10 @@ def depth_at(even_contact):
     """
 
     def run(load, slope_per_load, distances, warp=NO_RUNNING_IN):
-        def result(greatest, **keys):
+        def result(horizon, **keys):
             law = {"law": "archard", "specific_wear_rate_mm2_per_N": 1e-3 * slope_per_load}
             columns = {"load_per_width_N_per_mm": load, "slip_ratio": 1.0}
-            return wearsim.simulate(even_contact(columns, law | keys, 10.0, greatest))
+            return wearsim.simulate(even_contact(columns, law | keys, 10.0, horizon))
 
         width = 4.0 * load / (np.pi * result(1.0).initial_peak_pressure)
         keys = {"running_in_factor": warp.factor, "running_in_distance_mm": width * warp.cycles}

@@ -209,7 +209,8 @@ def test_elongations_have_the_closed_form_of_a_line_through_zero(tmp_path):
     assert part.interval.high == pytest.approx(limit / (slope - spread), rel=1e-4)
     assert part.remaining == pytest.approx(limit / slope - 140.0, rel=1e-5)
     assert value.value / part.life**-1 == pytest.approx(
-        value.given * wearsim.simulate(wearsim.load_case(copy.deepcopy(WRAP))).parts["chain"].hours, rel=1e-5
+        value.in_case * wearsim.simulate(wearsim.load_case(copy.deepcopy(WRAP))).parts["chain"].hours,
+        rel=1e-5,
     )
     assert found.runs == 0
 

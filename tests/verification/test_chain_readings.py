@@ -380,7 +380,7 @@ def fitted(rows, **tables):
     """Coefficient of the joints over the case's, and the ends of its interval, by ``calibrate``."""
     pytest.importorskip("pandera", reason="pandera is not installed")
     (value,) = wearsim.calibrate(case(**tables), rows).found.values
-    return np.array([value.value, value.interval.low, value.interval.high]) / value.given
+    return np.array([value.value, value.interval.low, value.interval.high]) / value.in_case
 
 
 def test_calibrate_takes_lengths_km_and_days(drive):

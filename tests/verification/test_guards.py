@@ -33,9 +33,9 @@ def strand(exponent: float, *settings: str) -> wearsim.Case:
     return wearsim.load_case(STRAND, [*law, *settings])
 
 
-def right_or_refused(case: Callable[..., wearsim.Case], greatest: float, factor: float) -> None:
+def right_or_refused(case: Callable[..., wearsim.Case], stable: float, factor: float) -> None:
     """The life with updates of so many times the stable cycles is right, or the run raises."""
-    cycles = max(1, round(factor * greatest))
+    cycles = max(1, round(factor * stable))
     expected = wearsim.simulate(case()).life.cycles
     try:
         result = wearsim.simulate(case("run.method=per_cycle", f"run.cycles_per_update={cycles}"))
@@ -56,8 +56,8 @@ def test_any_step_on_the_benchmark_is_right_or_refused(b9: CaseMaker, factor: fl
     relative = 1.0 / 6.035 + 1.0 / 39.1
     modulus = 2.1e5 / (2.0 * (1.0 - 0.3**2))
     rate = 1e-10 * np.sqrt(load * modulus * relative / np.pi) * (0.05 + 0.4 * u)
-    greatest = float((6.0 / 99.0) ** 2 * relative / rate.max())
-    right_or_refused(lambda *settings: b9(100, *settings), greatest, factor)
+    stable = float((6.0 / 99.0) ** 2 * relative / rate.max())
+    right_or_refused(lambda *settings: b9(100, *settings), stable, factor)
 
 
 @pytest.mark.parametrize("factor", FACTORS)
@@ -66,8 +66,8 @@ def test_any_step_on_the_strand_is_right_or_refused(exponent: float, factor: flo
     """The stable cycles as the refusal itself proposes them for a hopeless step."""
     with pytest.raises(WearsimError, match="take cycles_per_update = ") as caught:
         wearsim.simulate(strand(exponent, "run.method=per_cycle", "run.cycles_per_update=1000000"))
-    greatest = int(str(caught.value).split("take cycles_per_update = ")[1].split()[0])
-    right_or_refused(lambda *settings: strand(exponent, *settings), float(greatest), factor)
+    stable = int(str(caught.value).split("take cycles_per_update = ")[1].split()[0])
+    right_or_refused(lambda *settings: strand(exponent, *settings), float(stable), factor)
 
 
 def test_order_on_the_benchmark(b9: CaseMaker) -> None:

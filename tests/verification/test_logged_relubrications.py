@@ -81,7 +81,7 @@ def test_the_rate_of_a_chain_comes_back():
     values = [1.7 * 2.0 / steady * np.interp(hours, times, worn) for hours in READ]
     found = wearsim.calibrate({**CHAIN, "lubrication": OILED}, rows("elongation_percent", values, 1e-3))
     (value,), (part,) = found.found.values, found.found.parts
-    assert value.value / value.given == pytest.approx(1.7, rel=1e-3)
+    assert value.value / value.in_case == pytest.approx(1.7, rel=1e-3)
     life = float(np.interp(steady / 1.7, worn, times))
     assert 900.0 < life < 2400.0
     assert part.life == pytest.approx(life, rel=1e-3)

@@ -585,10 +585,10 @@ def test_stress_from_the_points_of_both_profiles(validated, name):
     assert second[inner] == pytest.approx(line.contacts.wheel_curvature[inner], abs=1e-6)
     load = NORMAL["load_per_width_N_per_mm"] if "normal" in name else 240e3 / 4104 / np.cos(angle)
     stress = 191.6456725064184 * np.sqrt(load * (first + second))
-    requested = 600.0 if "600" in name else SIGMA
+    expected = 600.0 if "600" in name else SIGMA
     quantity, source = f"stress along the line {name!r}", "curvature of the points of both profiles"
     shown = name == "+1 at 600 MPa"
-    validated(quantity, requested, stress[inner], 0.01, source, "MPa", absolute=True, page=shown)
+    validated(quantity, expected, stress[inner], 0.01, source, "MPa", absolute=True, page=shown)
 
 
 @pytest.mark.parametrize("name", LINES)
@@ -707,9 +707,9 @@ def test_stress_between_points(law):
     loaded = pair(law)
     (phase,) = tables(law).phases(loaded)
     l = phase.line.contacts.pitch_point_distance
-    requested = np.interp(l, law["pitch_point_distance_mm"], law["contact_stress_MPa"])
+    expected = np.interp(l, law["pitch_point_distance_mm"], law["contact_stress_MPa"])
     stress = loaded.contact_stress(phase.line.contacts)
-    assert stress == pytest.approx(requested, rel=1e-9)
+    assert stress == pytest.approx(expected, rel=1e-9)
     assert not phase.involute.contacts.turn.any()
 
 

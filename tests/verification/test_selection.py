@@ -197,7 +197,7 @@ def test_no_80_drive_is_just_over() -> None:
 
 def test_joint_pressure_of_the_conveyor_drive() -> None:
     """Case D: 2110 N, K_e 1.3, 179.7 mm2. The page allows 31 MPa, the table 32.87 at 114 rpm."""
-    found = joint_pressure(2110.0, 179.7, exploitation=1.3)
+    found = joint_pressure(2110.0, 179.7, application=1.3)
     assert found == pytest.approx(2110 * 1.3 / 179.7, rel=1e-14)
     assert found < 31.0
     assert round(allowable_joint_pressure(25.4, 114.0), 2) == 32.87
@@ -290,7 +290,7 @@ def test_no_pressure_for_other_pitches(pitch: float) -> None:
     assert allowable_joint_pressure(pitch, 100.0) is None
 
 
-def test_exploitation_factor() -> None:
+def test_joint_application_factor() -> None:
     """1.35 * 1.5 * 1.45 * 1.25, and 0.15 sqrt(81) = 1.35 on a slope of 81 degrees."""
     assert joint_application_factor() == 1.0
     worst = joint_application_factor("moderate shocks", "periodic", "three", "none")

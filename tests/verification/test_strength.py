@@ -37,8 +37,8 @@ def pair(name, *overrides):
     return load_calculation(CASES[name], StrengthTables, overrides).strength()
 
 
-def both(found, stop_limit, attribute):
-    return [getattr(getattr(gear, stop_limit), attribute) for gear in found.gears]
+def both(found, kind, attribute):
+    return [getattr(getattr(gear, kind), attribute) for gear in found.gears]
 
 
 class TestExampleA:

@@ -9,6 +9,7 @@ z = 17 (77.382 and 73.590, as off a sampled flank), the tip land 1.290 of GOST 1
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -91,11 +92,6 @@ def test_iso_seats(roller: float, teeth: int, seat_radii: str, angles: str) -> N
     check_all(angles, *(math.degrees(form.seating_angle) for form in forms))
 
 
-def test_iso_tooth_heights() -> None:
-    check_all("2.0950 4.2801", *iso606.tooth_height_limits(12.7, 8.51, 17))
-    check_all("4.7600 9.0045", *iso606.tooth_height_limits(25.4, 15.88, 19))
-
-
 @pytest.mark.parametrize(
     ("form", "seat_end", "theta_end"),
     [("min", "3.9662 32.9031", "67.3529"), ("max", "3.7372 32.1636", "57.3529")],
@@ -163,14 +159,15 @@ def test_iso_default_tip_lies_within_what_the_standard_and_the_flanks_allow() ->
                 assert gap.tip_land > 0.0
 
 
-def test_iso_rim_widths() -> None:
-    """Factors of the standard's table times b1."""
-    width = [iso606.rim_width(p, 10.0, n) for p in (12.7, 12.8) for n in (1, 2, 3, 4)]
-    np.testing.assert_allclose(width, [9.3, 9.1, 9.1, 8.8, 9.5, 9.3, 9.3, 9.3], rtol=1e-15)
-    assert iso606.total_rim_width(25.4, 17.02, 2, 31.88) == pytest.approx(0.93 * 17.02 + 31.88)
-    assert iso606.largest_shroud_diameter(12.7, 17, 11.81) == pytest.approx(
-        69.1158 * math.cos(math.pi / 17) - 1.04 * 11.81 - 0.76, abs=1e-4
-    )
+def pointed_height(tooth: TypeIITooth) -> float:
+    """From the foot of the head's centre to the pointed tip on the tooth's axis (H) [mm]."""
+    return math.sqrt(tooth.head_radius**2 - (1.4 * tooth.roller_diameter - 0.5 * tooth.pitch) ** 2)
+
+
+def pointed_diameter(tooth: TypeIITooth, shift: float = 0.0) -> float:
+    """Diameter at which teeth are pointed, by the handbook, the seats moved out by a shift [mm]."""
+    half = math.pi / tooth.teeth
+    return tooth.pitch / math.tan(half) + 2.0 * math.cos(half) * shift + 2.0 * pointed_height(tooth)
 
 
 def test_ansi_40_in_inches() -> None:
@@ -180,12 +177,12 @@ def test_ansi_40_in_inches() -> None:
     check_all(
         "38.0000 15.2000", 90.0 - math.degrees(tooth.seat_half_angle), math.degrees(tooth.working_angle)
     )
-    check_all("0.408531 0.108062", tooth.working_radius / INCH, tooth.working_chord / INCH)
+    check("0.408531", tooth.working_radius / INCH)
     check_all("-0.197003 0.153915", *(part / INCH for part in tooth.working_centre))
     check_all("0.0388111 0.257594", tooth.straight_length / INCH, tooth.head_radius / INCH)
     check_all("0.432114 -0.0684401", *(part / INCH for part in tooth.head_centre))
-    check_all("0.176631 0.274553", tooth.pointed_height / INCH, tooth.pointed_offset / INCH)
-    check_all("3.45688 3.51014", tooth.outside_diameter / INCH, tooth.pointed_diameter() / INCH)
+    check("0.176631", pointed_height(tooth) / INCH)
+    check_all("3.45688 3.51014", tooth.outside_diameter / INCH, pointed_diameter(tooth) / INCH)
     check("2.88373", tooth.root_diameter("root_diameter") / INCH)
     gap = ansi_b29_gap(0.5 * INCH, 0.3125 * INCH, 20)
     centre = (0.0, gap.seat_centre)
@@ -200,8 +197,8 @@ def test_ansi_40_in_inches() -> None:
 def test_ansi_40_metric() -> None:
     tooth = TypeIITooth(12.7, 7.92, 20)
     check_all("81.1842 4.0179 10.3539", tooth.pitch_diameter, tooth.seat_radius, tooth.working_radius)
-    check_all("6.5284 0.98363 4.49123", tooth.head_radius, tooth.straight_length, tooth.pointed_height)
-    check_all("87.8046 89.1671", tooth.outside_diameter, tooth.pointed_diameter())
+    check_all("6.5284 0.98363 4.49123", tooth.head_radius, tooth.straight_length, pointed_height(tooth))
+    check_all("87.8046 89.1671", tooth.outside_diameter, pointed_diameter(tooth))
 
 
 def test_ansi_bottom_by_convention() -> None:
@@ -224,24 +221,24 @@ def test_ansi_pointed_diameter(pitch: float, roller: float) -> None:
     for teeth in range(9, 151):
         tooth, half = TypeIITooth(pitch, roller, teeth), math.pi / teeth
         gap = ansi_b29_gap(pitch, roller, teeth)
-        assert 2.0 * gap.pointed_radius == pytest.approx(tooth.pointed_diameter(), rel=1e-14)
+        assert 2.0 * gap.pointed_radius == pytest.approx(pointed_diameter(tooth), rel=1e-14)
         shifted = ansi_b29_gap(pitch, roller, teeth, seat_centre="root_diameter")
         s = 0.0025 * roller + 0.0381
         aside = 1.4 * roller - 0.5 * pitch - s * math.sin(half)
         height = math.sqrt(tooth.head_radius**2 - aside**2)
         exact = pitch / math.tan(half) + 2.0 * math.cos(half) * s + 2.0 * height
         assert 2.0 * shifted.pointed_radius == pytest.approx(exact, rel=1e-14)
-        assert tooth.pointed_diameter("root_diameter") < exact
+        assert pointed_diameter(tooth, s) < exact
 
 
 def test_ansi_pointed_formula_when_the_root_diameter_is_exact() -> None:
     """3.51014 + cos 9 deg 0.0045625 in by the handbook, 0.019 mm below the geometry."""
     tooth = TypeIITooth(0.5 * INCH, 0.3125 * INCH, 20)
     printed = 3.51014 + 0.0045625 * math.cos(math.radians(9.0))
-    assert tooth.pointed_diameter("root_diameter") / INCH == pytest.approx(printed, abs=5e-6)
+    by_formula = pointed_diameter(tooth, 0.0025 * tooth.roller_diameter + 0.0381)
+    assert by_formula / INCH == pytest.approx(printed, abs=5e-6)
     gap = ansi_b29_gap(0.5 * INCH, 0.3125 * INCH, 20, seat_centre="root_diameter")
-    missing = 2.0 * gap.pointed_radius - tooth.pointed_diameter("root_diameter")
-    assert missing == pytest.approx(0.0192, abs=5e-5)
+    assert 2.0 * gap.pointed_radius - by_formula == pytest.approx(0.0192, abs=5e-5)
 
 
 @pytest.mark.parametrize("teeth", [5, 9, 17, 20, 57, 150])
@@ -277,13 +274,7 @@ def test_ansi_point_identities(teeth: int) -> None:
 def test_gost_25_4_z_25() -> None:
     tooth = GostTooth(25.4, 15.88, 25)
     assert gost591.tooth_height_factor(25.4, 15.88) == 0.532
-    check_all(
-        "202.6597 214.5745 186.6003 186.2004",
-        tooth.pitch_diameter,
-        tooth.outside_diameter,
-        tooth.root_diameter,
-        tooth.largest_chord,
-    )
+    check_all("202.6597 214.5745 186.6003", tooth.pitch_diameter, tooth.outside_diameter, tooth.root_diameter)
     check_all("8.0297 20.7337 10.5619", tooth.seat_radius, tooth.working_radius, tooth.head_radius)
     angles = (tooth.seat_half_angle, tooth.working_angle, tooth.half_tooth_angle)
     check_all("52.6000 15.7600 14.4400", *map(math.degrees, angles))
@@ -301,7 +292,7 @@ def test_gost_25_4_z_25() -> None:
 def test_gost_12_7_z_17() -> None:
     tooth = GostTooth(12.7, 8.51, 17)
     assert gost591.tooth_height_factor(12.7, 8.51) == 0.480
-    check_all("74.0350 60.4633 60.1684", tooth.outside_diameter, tooth.root_diameter, tooth.largest_chord)
+    check_all("74.0350 60.4633", tooth.outside_diameter, tooth.root_diameter)
     check_all("4.3263 11.1343 5.7228", tooth.seat_radius, tooth.working_radius, tooth.head_radius)
     check_all("0.6877 0.381", tooth.straight_length, tooth.displacement)
     assert gost591_gap(12.7, 8.51, 17).tip_land == pytest.approx(1.289489033055680, rel=1e-13)
@@ -319,13 +310,7 @@ def test_gost_19_05_z_20_and_15_875_z_21() -> None:
         tooth.straight_length,
     )
     tooth = GostTooth(15.875, 10.16, 21)
-    check_all(
-        "106.5134 113.7692 96.2026 95.9048",
-        tooth.pitch_diameter,
-        tooth.outside_diameter,
-        tooth.root_diameter,
-        tooth.largest_chord,
-    )
+    check_all("106.5134 113.7692 96.2026", tooth.pitch_diameter, tooth.outside_diameter, tooth.root_diameter)
     check_all("6.7820 0.8883", tooth.head_radius, tooth.straight_length)
 
 
@@ -345,7 +330,7 @@ def test_gost_displaced_halves_are_the_plain_ones_moved_apart() -> None:
 
 
 def test_measuring() -> None:
-    over, across = worn_tooth.measurement_over_pins, worn_tooth.root_caliper
+    over = worn_tooth.measurement_over_pins
     for pitch, roller, teeth, printed in (
         (12.7, 8.51, 17, "77.3310"),
         (12.7, 8.51, 18, "81.6464"),
@@ -353,15 +338,10 @@ def test_measuring() -> None:
         (25.4, 15.88, 19, "169.6715"),
     ):
         gap = iso606_gap(pitch, roller, teeth, seat_centre="root_diameter")
-        check(printed, over(worn_tooth.seated_radius(gap, roller), roller, teeth))
-    check("60.3110", across(0.5 * pitch_diameter(12.7, 17), 8.51, 17))
+        check(printed, over(gap.bottom_radius + 0.5 * roller, roller, teeth))
     check("3.50873", over(0.5 * pitch_diameter(0.5, 20), 0.3125, 20))
     check("3.02199", over(0.5 * pitch_diameter(0.5, 17), 0.3125, 17))
-    check("2.39699", across(0.5 * pitch_diameter(0.5, 17), 0.3125, 17))
     check("2.72110", pitch_diameter(0.5, 17))
-    check("186.2004", across(0.5 * pitch_diameter(25.4, 25), 16.0594, 25))
-    even = 25.4 / math.sin(math.radians(7.5)) - 16.0594
-    assert across(0.5 * pitch_diameter(25.4, 24), 16.0594, 24) == pytest.approx(even, rel=1e-15)
 
 
 def test_measurement_over_pins_of_a_worn_seat_drops_by_both_seats() -> None:
@@ -371,12 +351,23 @@ def test_measurement_over_pins_of_a_worn_seat_drops_by_both_seats() -> None:
         assert new - worn == pytest.approx(less, abs=1e-13)
 
 
+def tangency_error(gap: Gap) -> float:
+    """Largest step between two segments: as a part of the pitch radius, or in rad."""
+    return max(
+        max(
+            math.dist(before.end, after.start) / gap.pitch_radius,
+            abs(before.end_tangent - after.start_tangent),
+        )
+        for before, after in pairwise(gap.segments)
+    )
+
+
 @pytest.mark.parametrize("seat_centre", CONVENTIONS)
 @pytest.mark.parametrize("form", FORMS)
 def test_tangency(form: str, seat_centre: str) -> None:
     """Every arc is placed by its standard's own coordinates, so this tests the standard."""
     worst = max(
-        FORMS[form](pitch, roller, teeth, seat_centre=seat_centre).tangency_error
+        tangency_error(FORMS[form](pitch, roller, teeth, seat_centre=seat_centre))
         for pitch, roller in ((6.35, 3.3), (12.7, 8.51), (114.3, 72.39))
         for teeth in range(9, 151)
     )

@@ -457,11 +457,11 @@ def test_number_of_rollers(degrees: float, phase: float) -> None:
     loads = wrap(FORMS["ANSI"](20), wrap_angle=math.radians(degrees)).loads(phase)
     last = (phase - 0.5) * 18.0 + 18.0 * (loads.force.size - 1)
     assert degrees - 9.0 - 1e-6 <= last < degrees + 9.0 + 1e-6
-    rotated = math.degrees(
+    wrapped = math.degrees(
         math.atan2(-loads.slack_direction[1], loads.slack_direction[0])
         - math.atan2(loads.tight_direction[1], -loads.tight_direction[0])
     )
-    assert rotated % 360.0 == pytest.approx(degrees)
+    assert wrapped % 360.0 == pytest.approx(degrees)
 
 
 @pytest.mark.parametrize("elongation", [0.0, 0.02])

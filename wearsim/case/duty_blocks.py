@@ -175,9 +175,9 @@ def _mean(one: GivenLoad, other: GivenLoad, first: float, second: float) -> floa
     return (one.share * first + other.share * second) / (one.share + other.share)
 
 
-def _logged(case: ChainRecord, greatest: int, chain: Chain) -> GivenDuty | None:
+def _logged(case: ChainRecord, most_blocks: int, chain: Chain) -> GivenDuty | None:
     """Return the blocks of a log of load and speed."""
-    logged = log_blocks(case, greatest, chain)
+    logged = log_blocks(case, most_blocks, chain)
     if logged is None:
         return None
     blocks, ratio = (*logged.blocks, *logged.reverse), case.tables.load.duty_speed_ratio or 1.0

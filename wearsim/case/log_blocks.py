@@ -24,11 +24,11 @@ class LogBlocks:
     reverse: list[LogBin]  # that load the other one
 
 
-def log_blocks(case: ChainRecord, greatest: int, chain: Chain) -> LogBlocks | None:
+def log_blocks(case: ChainRecord, most_blocks: int, chain: Chain) -> LogBlocks | None:
     """Return the blocks of the log of a case, of each flank so many at most; 0 for no limit."""
     table = case.tables.load
     assert table.duty_file is not None
-    path = case.path(_KEY, table.duty_file)
+    path = case.path(table.duty_file)
     found = read_log(path, _KEY, case.faults)
     bins = table.duty_bins
     if bins is None:
@@ -37,7 +37,7 @@ def log_blocks(case: ChainRecord, greatest: int, chain: Chain) -> LogBlocks | No
     if found is None or not _within_strength(case, found, path.name, chain):
         return None
     sorted_in = [log_bins(found.log.of_flank(other), *bins) for other in (False, True)]
-    blocks, reverse = (merged(part, greatest) if greatest else part for part in sorted_in)
+    blocks, reverse = (merged(part, most_blocks) if most_blocks else part for part in sorted_in)
     case.assumptions.append(_summary(path.name, found, [*sorted_in[0], *sorted_in[1]], [*blocks, *reverse]))
     _say_gaps(case, path.name, found)
     _say_stops(case, path.name, found)

@@ -103,7 +103,7 @@ def points_tooth(
     if table.points_file is None or table.evolute_offset_mm is None:
         faults.add("sprocket.evolute_offset_mm", "profile = 'points' on a strand needs this key")
         return None
-    points = read_points(case.path("sprocket.points_file", table.points_file), "sprocket.points_file", faults)
+    points = read_points(case.path(table.points_file), "sprocket.points_file", faults)
     noise = table.points_noise_mm
     if noise is None:
         noise = POINTS_NOISE

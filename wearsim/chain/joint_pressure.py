@@ -122,7 +122,7 @@ def joint_application_factor(
     return joint_application(load, lubrication, shifts, adjustment, slope).factor
 
 
-def joint_pressure(pull: float, bearing_area: float, strands: int = 1, exploitation: float = 1.0) -> float:
+def joint_pressure(pull: float, bearing_area: float, strands: int = 1, application: float = 1.0) -> float:
     """Return the pressure in the joint by GOST practice, p = F_t K_e/(A m_p).
 
     Parameters
@@ -134,7 +134,7 @@ def joint_pressure(pull: float, bearing_area: float, strands: int = 1, exploitat
         that of one strand.
     strands : int
         1 to 3.
-    exploitation : float
+    application : float
         K_e of `joint_application_factor`.
 
     Returns
@@ -149,7 +149,7 @@ def joint_pressure(pull: float, bearing_area: float, strands: int = 1, exploitat
 
     Examples
     --------
-    >>> joint_pressure(2000.0, 100.0, exploitation=1.5)
+    >>> joint_pressure(2000.0, 100.0, application=1.5)
     30.0
     """
     if not bearing_area > 0.0:
@@ -158,7 +158,7 @@ def joint_pressure(pull: float, bearing_area: float, strands: int = 1, exploitat
             "from the catalogue of the chain's maker"
         )
         raise CaseError([Fault(message)])
-    return pull * exploitation * strands / (bearing_area * strand_factor(strands, "GOST"))
+    return pull * application * strands / (bearing_area * strand_factor(strands, "GOST"))
 
 
 def allowable_joint_pressure(pitch: float, speed: float) -> float | None:

@@ -17,7 +17,7 @@ from wearsim.chain.chain_length import belt_centre
 from wearsim.chain.joint_pressure import allowable_joint_pressure
 from wearsim.chain.power_rating import RATED_HOURS, power_rating, strand_factor
 from wearsim.chain.practice_drive import RATED_ELONGATION, PracticeDrive
-from wearsim.chain.selection import LARGEST_PITCH, RatingFinding, rating_note
+from wearsim.chain.selection import LARGEST_PITCH, rating_note
 from wearsim.errors import GeometryError
 
 GOST_HOURS = 10_000.0
@@ -25,9 +25,6 @@ GOST_HOURS = 10_000.0
 
 GREATEST_PRESSURE = 45.0
 """Joint pressure above which no rule has been in use [MPa]; neither above twice [p]."""
-
-PRESSURE_VELOCITY = 110.0, 130.0
-"""Joint pressure times chain speed at which the pressures of DIN 8195 end [MPa m/s]."""
 
 NOT_WEAR_HOURS = 100_000.0
 """Life above which wear is not what a chain ends by."""
@@ -243,23 +240,3 @@ def geometric_mean(found: Iterable[Opinion]) -> float | None:
     ]
     means = [sum(logs) / len(logs) for logs in groups if logs]
     return math.exp(sum(means) / len(means)) if means else None
-
-
-def pressure_velocity(drive: PracticeDrive) -> RatingFinding:
-    """Return joint pressure times chain speed beside the value at which DIN 8195 ends.
-
-    Examples
-    --------
-    >>> slow = PracticeDrive(19.05, 21, 3.0, 120.0, 124, 4000.0, 100.0, 5.72)  # 40 MPa at 0.8 m/s
-    >>> round(pressure_velocity(slow).value, 2)
-    32.0
-    """
-    least, most = PRESSURE_VELOCITY
-    return RatingFinding(
-        "pressure times chain speed",
-        drive.pressure * drive.chain_speed,
-        least,
-        "MPa m/s",
-        "p_v of DIN 8195",
-        f"indicative, p_v ends at {least:g} to {most:g}; ANSI ratings reach 165 with a stream of oil",
-    )

@@ -216,7 +216,7 @@ def rating_note(series: str) -> str:
 
 
 def assess(
-    drive: RatedDrive, service_factor: float = 1.0, exploitation: float = 1.0
+    drive: RatedDrive, service_factor: float = 1.0, application: float = 1.0
 ) -> tuple[RatingFinding, ...]:
     """Return what the handbooks say about a drive.
 
@@ -234,7 +234,7 @@ def assess(
     """
     return (
         *_power_findings(drive, service_factor),
-        *_pressure_findings(drive, exploitation),
+        *_pressure_findings(drive, application),
         *_speed_findings(drive),
         *_tensile_findings(drive, service_factor),
         *_galling_findings(drive),
@@ -261,11 +261,11 @@ def _power_findings(drive: RatedDrive, service_factor: float) -> list[RatingFind
     ]
 
 
-def _pressure_findings(drive: RatedDrive, exploitation: float) -> list[RatingFinding]:
+def _pressure_findings(drive: RatedDrive, application: float) -> list[RatingFinding]:
     allowed = allowable_joint_pressure(drive.pitch, drive.speed)
     if allowed is None or not drive.bearing_area or drive.strands > 3:
         return []
-    found = joint_pressure(drive.pull, drive.bearing_area, drive.strands, exploitation)
+    found = joint_pressure(drive.pull, drive.bearing_area, drive.strands, application)
     note = "" if drive.series == _GOST else "indicative, the table is for GOST 13568 chains"
     return [RatingFinding("joint pressure", found, allowed, "MPa", "GOST practice (Dunaev)", note)]
 

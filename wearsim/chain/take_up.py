@@ -126,14 +126,3 @@ def _where_possible(excess: Callable[[float], float], places: Floats) -> Floats:
     if fault and np.all(np.isnan(found)):
         raise fault
     return found
-
-
-def taken_up(loop: ChainLoop, take_up: TakeUp, links: int, elongation: float = 0.0) -> ChainLoop:
-    """Return the loop with the take-up where a chain of so many links fits."""
-    travel = fitting_travel(loop, take_up, links, elongation)
-    return take_up.moved(replace(loop, elongation=elongation), travel)
-
-
-def travel_of_elongation(loop: ChainLoop, take_up: TakeUp, links: int, elongation: float) -> float:
-    """Return how far the take-up moves from a new chain to an elongated one [mm]."""
-    return fitting_travel(loop, take_up, links, elongation) - fitting_travel(loop, take_up, links)

@@ -62,27 +62,21 @@ def _show(
         from wearsim.files import check_folder
 
         check_folder(out, force)
-    from wearsim.input.document import read_document
-
     try:
         found = compute(case, settings)
-        notes = read_document(case, settings).faults.notes
     except WearsimError as error:
         if not as_json:
             raise
         click.echo(error_json(case.stem, error))
         show_error(error)
         raise click.exceptions.Exit(exit_code(error)) from None
-    content = {**ANSWER_HEAD, "case": case.stem, **found.content}
-    sheet = replace(found, content={**content, "notes": notes} if notes else content)
+    sheet = replace(found, content={**ANSWER_HEAD, "case": case.stem, **found.content})
     if out is not None:
         sheet.save(out, force)
     if as_json:
         print_json(sheet.content, case, sheet.warnings)
     else:
         show(sheet.text)
-        for text in notes:
-            warn(f"{case}: note: {text}")
         for text in sheet.warnings:
             warn(f"{case}: warning: {text}")
     if out is not None:

@@ -53,7 +53,7 @@ class StudyOptions:
 
 
 def study_options(function: Function) -> Function:
-    """Add the options that tell where a study runs, as the argument ``place``."""
+    """Add the options that say where a study runs, as the argument ``options``."""
     from functools import wraps
 
     @wraps(function)
@@ -73,8 +73,8 @@ def study_options(function: Function) -> Function:
     ) -> Any:
         files = {"tls_ca_file": tls_ca_file, "tls_client_cert": tls_cert, "tls_client_key": tls_key}
         tls = {name: str(path) for name, path in files.items() if path is not None}
-        place = StudyOptions(out, force, dry_run, jobs, threads, scheduler, scheduler_file, tls)
-        return function(*arguments, place=place, **others)
+        options = StudyOptions(out, force, dry_run, jobs, threads, scheduler, scheduler_file, tls)
+        return function(*arguments, options=options, **others)
 
     for option in reversed(_OPTIONS):
         command = option(command)

@@ -22,63 +22,63 @@ INTERRUPTED = 130
 
 
 def run(
-    design: "Design", place: StudyOptions, progress: Mapping[str, Any], text: str
+    design: "Design", options: StudyOptions, identity: Mapping[str, Any], text: str
 ) -> "pd.DataFrame | None":
     """Run the cases of a study, or only tell what it would take."""
     from wearsim.runner.run_study import run_study
     from wearsim.runner.store import check_store
 
-    workers = place.workers()
-    if place.dry_run:
-        if place.out is not None:
-            check_store(place.out, design, progress, place.force)
-        _show_plan(design, place)
+    workers = options.workers()
+    if options.dry_run:
+        if options.out is not None:
+            check_store(options.out, design, identity, options.force)
+        _show_plan(design, options)
         return None
-    store = _store(design, place, progress)
-    with _interrupted(place), _counting(text) as count:
+    store = _store(design, options, identity)
+    with _interrupted(options), _counting(text) as count:
         return run_study(design, workers, store, count)
 
 
 @contextmanager
 def in_batches(
-    design: "Design", place: StudyOptions, progress: Mapping[str, Any], text: str, greatest: int
+    design: "Design", options: StudyOptions, identity: Mapping[str, Any], text: str, most_cases: int
 ) -> "Iterator[Callable[[Design], pd.DataFrame]]":
     """Run cases of a study batch by batch, where each depends on the ones before."""
     from wearsim.runner.run_study import run_study
     from wearsim.runner.workers import SharedWorkers
 
-    workers, done = SharedWorkers(place.workers()), 0
-    store = _store(design, place, progress)
-    with _interrupted(place), closing(workers), _counting(text) as count:
+    workers, done = SharedWorkers(options.workers()), 0
+    store = _store(design, options, identity)
+    with _interrupted(options), closing(workers), _counting(text) as count:
 
         def run_batch(part: "Design") -> "pd.DataFrame":
             nonlocal done
-            table = run_study(part, workers, store, lambda now, _: count(done + now, greatest))
+            table = run_study(part, workers, store, lambda now, _: count(done + now, most_cases))
             done += len(part.rows)
             return table
 
         yield run_batch
 
 
-def _store(design: "Design", place: StudyOptions, progress: Mapping[str, Any]) -> "Store | None":
-    if place.out is None:
+def _store(design: "Design", options: StudyOptions, identity: Mapping[str, Any]) -> "Store | None":
+    if options.out is None:
         return None
     from wearsim.extras import library
     from wearsim.runner.store import open_store
 
     library("pyarrow", "study", "--out")
-    return open_store(place.out, design, progress, place.force)
+    return open_store(options.out, design, identity, options.force)
 
 
 @contextmanager
-def _interrupted(place: StudyOptions) -> "Iterator[None]":
+def _interrupted(options: StudyOptions) -> "Iterator[None]":
     """End on Ctrl-C, and say how to go on."""
     try:
         yield
     except KeyboardInterrupt:
         kept = "nothing is kept without --out"
-        if place.out is not None:
-            kept = f"what is finished is kept in {place.out}: run the same command again to go on"
+        if options.out is not None:
+            kept = f"what is finished is kept in {options.out}: run the same command again to go on"
         click.echo(f"interrupted: {kept}", err=True)
         raise click.exceptions.Exit(INTERRUPTED) from None
 
@@ -94,12 +94,12 @@ def exit_code(table: "pd.DataFrame") -> int:
     return SOME_FAILED
 
 
-def _show_plan(design: "Design", place: StudyOptions) -> None:
+def _show_plan(design: "Design", options: StudyOptions) -> None:
     from wearsim.runner.shard import shards
     from wearsim.runner.store import Store
 
     waiting, shard_count = 0, 0
-    store = None if place.out is None else Store(place.out)
+    store = None if options.out is None else Store(options.out)
     for shard in shards(design):
         shard_count += 1
         if store is None or not store.path(shard).exists():
@@ -107,8 +107,8 @@ def _show_plan(design: "Design", place: StudyOptions) -> None:
     seconds, count = timed(design)
     click.echo(f"cases        {len(design.rows)}, of which {waiting} are to be run")
     click.echo(f"time         about {seconds * waiting:.3g} s in one thread, from {count} cases")
-    if place.out is not None:
-        click.echo(f"files        {shard_count} in {place.out / 'shards'}, and tables beside it")
+    if options.out is not None:
+        click.echo(f"files        {shard_count} in {options.out / 'shards'}, and tables beside it")
 
 
 def timed(design: "Design") -> tuple[float, int]:

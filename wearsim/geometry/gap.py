@@ -9,7 +9,6 @@ from bottom to tip.
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -225,17 +224,6 @@ class Gap:
     def half_length(self) -> float:
         """Length of the outline from bottom to tip [mm]."""
         return math.fsum(segment.length for segment in self.segments)
-
-    @property
-    def tangency_error(self) -> float:
-        """Largest step between two segments: as a part of the pitch radius, or in rad."""
-        return max(
-            max(
-                math.dist(before.end, after.start) / self.pitch_radius,
-                abs(before.end_tangent - after.start_tangent),
-            )
-            for before, after in pairwise(self.segments)
-        )
 
     def pressure_angle(self, theta: ArrayLike) -> Vector:
         """Return the pressure angle phi = 90 deg - theta - 180 deg/z.

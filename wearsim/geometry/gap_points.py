@@ -36,9 +36,9 @@ def gap_from_points(x: ArrayLike, y: ArrayLike, noise: float, nodes: int, roller
     A quintic spline over the chord length, fitted by least squares. Where arcs and lines
     meet, the curvature jumps: such joints are searched one by one, and kept where they
     lower n log(sum of squared residuals + n noise^2) by more than they add to
-    9 log(2 n), their share of the Bayesian information stop limit; there the spline's
+    9 log(2 n), their share of the Bayesian information criterion; there the spline's
     tangent is continuous and its curvature is not. Between joints it gets as few knots as
-    the same stop limit asks for. Corners sharper than 0.1 rad stay corners.
+    the same criterion asks for. Corners sharper than 0.1 rad stay corners.
 
     Examples
     --------

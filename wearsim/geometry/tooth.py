@@ -23,7 +23,7 @@ _SEAT_CLEARANCES = (0.005, 0.01, 0.02, 0.04)
 
 
 def sweep_path(strand: Strand, tip_radius: float, side: float) -> shapely.LineString:
-    """Return the way of a roller centre in the sprocket's frame, from the pitch line out."""
+    """Return the way of a roller centre in the sprocket's frame, from the line of the pitch point out."""
     reach = tip_radius + strand.roller_radius
     far = math.sqrt(max(reach**2 - strand.height**2, strand.roller_radius**2))
     return shapely.LineString(strand.roller_path(side * np.linspace(0.0, far, 1000)))

@@ -4,8 +4,6 @@ import math
 
 import numpy as np
 
-from wearsim.errors import GeometryError
-from wearsim.geometry.gap import Gap
 from wearsim.geometry.profile_points import Vector
 
 
@@ -46,25 +44,6 @@ def tip_land(x: Vector, y: Vector, teeth: int) -> float:
     return radius * (2.0 * math.pi / teeth - gap)
 
 
-def seated_radius(gap: Gap, pin_diameter: float) -> float:
-    """Return the distance of a pin that rests on the bottom of an unworn gap.
-
-    Examples
-    --------
-    >>> from wearsim.geometry.forms.iso606 import iso606_gap
-    >>> gap = iso606_gap(10.0, 6.0, 6, seat_centre="root_diameter")
-    >>> round(seated_radius(gap, 6.0), 12)
-    10.0
-    """
-    seat_radius = gap.seat_centre - gap.bottom_radius
-    if not 0.0 < pin_diameter <= 2.0 * seat_radius:
-        raise GeometryError(
-            f"measuring pin: its diameter must be above 0 and no larger than the seat's "
-            f"{2.0 * seat_radius:g} mm, is {pin_diameter:g} mm: use a pin of the roller's diameter"
-        )
-    return gap.bottom_radius + 0.5 * pin_diameter
-
-
 def measurement_over_pins(centre_radius: float, pin_diameter: float, teeth: int) -> float:
     """Return the measurement over pins M_R of a sprocket.
 
@@ -90,35 +69,5 @@ def measurement_over_pins(centre_radius: float, pin_diameter: float, teeth: int)
     >>> round(measurement_over_pins(1.0, 1.0, 3), 4)
     2.7321
     """
-    return _across(centre_radius, teeth) + pin_diameter
-
-
-def root_caliper(centre_radius: float, seat_diameter: float, teeth: int) -> float:
-    """Return the caliper measurement between the bottoms of opposite gaps.
-
-    Parameters
-    ----------
-    centre_radius : float
-        Distance of the seats' centres from the sprocket's [mm], d/2 for a new sprocket.
-    seat_diameter : float
-        Diameter of the circles at the bottom [mm]: d1 for ISO 606 and ANSI, 2 r for
-        GOST 591 (then Di or, for odd z, Lx).
-    teeth : int
-        Number z.
-
-    Returns
-    -------
-    float
-        d - d1 for even z, d cos(90/z) - d1 for odd z [mm].
-
-    Examples
-    --------
-    >>> root_caliper(10.0, 6.0, 6)
-    14.0
-    """
-    return _across(centre_radius, teeth) - seat_diameter
-
-
-def _across(radius: float, teeth: int) -> float:
-    """Distance of two points of a circle, in gaps as nearly opposite as z allows."""
-    return 2.0 * radius * (math.cos(0.5 * math.pi / teeth) if teeth % 2 else 1.0)
+    across = math.cos(0.5 * math.pi / teeth) if teeth % 2 else 1.0
+    return 2.0 * centre_radius * across + pin_diameter

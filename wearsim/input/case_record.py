@@ -16,7 +16,7 @@ class CaseRecord:
         self.faults = faults
         self.inputs: dict[str, Any] = tables.model_dump(exclude_none=True)
         self.files: list[Path] = []
-        self.assumptions: list[str] = list(faults.notes)
+        self.assumptions: list[str] = []
         self.warnings: list[str] = []
 
     def take(self, key: str, value: float | int | str | list[int], why: str) -> None:
@@ -29,7 +29,7 @@ class CaseRecord:
         shown = f"{value:.6g}" if isinstance(value, float) else value
         self.assumptions.append(f"{key} = {shown} ({why})")
 
-    def path(self, key: str, name: str) -> Path:
+    def path(self, name: str) -> Path:
         """Return the place of a file that the case names."""
         path = self.folder / name
         self.files.append(path)

@@ -9,7 +9,6 @@ from typing import Any
 
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import GivenInput
-from wearsim.input.former_words import present_key
 from wearsim.input.keys import schema_of, tables_in
 from wearsim.input.schema.table import Table, is_number
 
@@ -21,7 +20,7 @@ def changed(given: GivenInput, changes: Mapping[str, Any]) -> GivenInput:
 
     What a value takes the place of is removed, unless it is among the changes too.
     """
-    values = {present_key(key): value for key, value in _flat(changes)}
+    values = dict(_flat(changes))
     tables = copy.deepcopy(dict(given.tables))
     for key, value in values.items():
         for other in _gives_way(tables, key, value):

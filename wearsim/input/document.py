@@ -13,7 +13,6 @@ from typing import Any
 from wearsim.catalogue.shipped_cases import place_of_case, similar_case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.faults import Faults
-from wearsim.input.former_words import present_key, present_tables
 
 
 @dataclass(frozen=True)
@@ -60,16 +59,11 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
     given = source if isinstance(source, GivenInput) else _given(source)
     keys = [item.partition("=")[0].strip() for item in overrides]
     faults = Faults(given.file, given.text, keys)
-    tables = present_tables(given.tables, faults.note, faults.add)
-    written = tables if given.written is given.tables else given.written
-    data = copy.deepcopy(tables)
-    for key, item in zip(keys, overrides, strict=True):
-        if present_key(key) != key:
-            faults.note(f"--set {key}", f"is read as {present_key(key)}: write that")
+    data = copy.deepcopy(dict(given.tables))
+    for item in overrides:
         _override(data, item)
-    data = present_tables(data, faults.note, faults.add)
-    given = replace(given, written=written, tables=data)
-    return Document(given.name, given.folder, retitled(data, written), faults, given)
+    given = replace(given, tables=data)
+    return Document(given.name, given.folder, retitled(data, given.written), faults, given)
 
 
 def _given(source: str | Path | CaseText | Mapping[str, Any]) -> GivenInput:
@@ -217,8 +211,7 @@ def _inner(place: Any, table: str, typed: str) -> Any:
 
 def _override(data: dict[str, Any], item: str) -> None:
     key, equals, raw = item.partition("=")
-    typed, raw = key.strip(), raw.strip()
-    key = present_key(typed)
+    key, raw = key.strip(), raw.strip()
     if not equals or not all(key.split(".")):
         raise CaseError([Fault("must have the form table.key=VALUE", "", f"--set {item}")])
     try:
@@ -228,12 +221,12 @@ def _override(data: dict[str, Any], item: str) -> None:
     *tables, last = key.split(".")
     place: Any = data
     for table in tables:
-        place = _inner(place, table, typed)
+        place = _inner(place, table, key)
         if not isinstance(place, dict | list):
-            raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {typed}")])
+            raise CaseError([Fault(f"{table!r} is a key, not a table", "", f"--set {key}")])
     if isinstance(place, list):
         raise CaseError(
-            [Fault(f"{tables[-1]!r} holds several tables: give a number and a key", "", f"--set {typed}")]
+            [Fault(f"{tables[-1]!r} holds several tables: give a number and a key", "", f"--set {key}")]
         )
     place[last] = value
     _check_depth(data, f"--set {tables[0] if tables else last}")

@@ -75,7 +75,7 @@ def _bin(values: Vector, count: int) -> NDArray[np.int64]:
     return cell
 
 
-def merged(blocks: list[LogBin], greatest: int) -> list[LogBin]:
+def merged(blocks: list[LogBin], most_blocks: int) -> list[LogBin]:
     """Join the smallest blocks with their nearest until so many are left.
 
     The nearest is that with which the least of the variance of load and speed, each
@@ -91,7 +91,7 @@ def merged(blocks: list[LogBin], greatest: int) -> list[LogBin]:
     load = np.array([block.load for block in blocks])
     speed = turns / time
     ranges = [float(np.ptp(values)) or 1.0 for values in (load, speed)] if blocks else []
-    while time.size > greatest:
+    while time.size > most_blocks:
         least = int(turns.argmin())
         away = ((load - load[least]) / ranges[0]) ** 2 + (
             (turns / time - turns[least] / time[least]) / ranges[1]

@@ -7,7 +7,6 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from wearsim.errors import CaseError, Fault
-from wearsim.input.former_words import present_key, written_key
 from wearsim.input.schema.table import CHOSEN, is_number, without_numbers
 
 _MARK = "\x00wearsim\x00"
@@ -16,13 +15,12 @@ _MAX_SIMILAR = 3
 
 
 class Faults:
-    """What is wrong with one input or read otherwise than it is written, collected in one pass."""
+    """What is wrong with one input, collected in one pass."""
 
     def __init__(self, file: str, text: str, overrides: Iterable[str]) -> None:
         self.file = file
         self.text = text
-        self._overrides = {present_key(key): key for key in overrides}
-        self.notes: list[str] = []
+        self._overrides = tuple(overrides)
         self._found: list[Fault] = []
         self._lines: dict[str, int] = {}
         self._distrusted: set[str] = set()
@@ -32,33 +30,23 @@ class Faults:
         """Number of faults found so far."""
         return len(self._found)
 
-    def note(self, key: str, message: str) -> None:
-        """Add what is to be known about a key that is right."""
-        self.notes.append(f"{key} {message}")
-
     def add(self, key: str, message: str) -> None:
         """Add a fault of a key."""
         if key.partition(".")[0] in self._distrusted:
             return
-        setting = self._setting(key)
-        if setting:
-            self._found.append(Fault(message, "", f"--set {setting}"))
+        if self._is_set(key):
+            self._found.append(Fault(message, "", f"--set {key}"))
             return
         if key not in self._lines:
-            self._lines[key] = line_of(self.text, written_key(key, self.text))
+            self._lines[key] = line_of(self.text, key)
         self._found.append(Fault(message, key, self.file, self._lines[key]))
 
-    def _setting(self, key: str) -> str:
-        """Return a key as it was typed in an override that holds it, or that made the table of this name."""
-        for given, typed in self._overrides.items():
-            if key == given or key.startswith(f"{given}."):
-                return typed + key.removeprefix(given)
-            if given.startswith(f"{key}.") and self.text and not self._stands(key):
-                return ".".join(typed.split(".")[: key.count(".") + 1])
-        return ""
-
-    def _stands(self, key: str) -> bool:
-        return _line_of_value(self.text, written_key(key, self.text).split(".")) > 0
+    def _is_set(self, key: str) -> bool:
+        """Whether an override holds a key, or made the table of this name."""
+        if any(key == typed or key.startswith(f"{typed}.") for typed in self._overrides):
+            return True
+        made = self.text and any(typed.startswith(f"{key}.") for typed in self._overrides)
+        return bool(made) and not _line_of_value(self.text, key.split("."))
 
     def add_validation(self, error: ValidationError, model: type[BaseModel]) -> None:
         """Add everything that pydantic found."""

@@ -31,7 +31,7 @@ from wearsim.kernels.signatures import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 LIMIT, HORIZON_TIME, LIFE_TOLERANCE, MODULUS, DIFFUSION = range(5)
 """Of the numbers of a flank: depth allowed, time of the horizon, tolerance of the life, E*, e."""
@@ -91,7 +91,7 @@ def run_once(
     law: Vector,
     ends: int,
     tolerance: float,
-    greatest: int,
+    most_states: int,
     state: Vector,
     work: Vector,
     increments: Vector,
@@ -119,7 +119,7 @@ def run_once(
         numbers[LIMIT],
         tolerance,
         numbers[HORIZON_TIME],
-        greatest,
+        most_states,
         work,
         increments,
         clock,
@@ -166,7 +166,7 @@ def wear_flanks(
     numbers: Vector,
     laws: Vector,
     ends: int,
-    greatest: int,
+    most_states: int,
     work: Vector,
     increments: Vector,
     clock: Vector,
@@ -202,7 +202,7 @@ def wear_flanks(
                 laws[i],
                 ends,
                 tolerance,
-                greatest,
+                most_states,
                 worn[i, :3],
                 work,
                 increments,

@@ -30,7 +30,7 @@ from wearsim.kernels.signatures import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 STATE_ROWS = 8
 """Of a state on the path: x, y, depth, rate, the direction a point recedes in (2), 1/rho_H."""
@@ -211,7 +211,7 @@ def wear_in_steps(
     depth_limit: float,
     tolerance: float,
     end: float,
-    greatest: int,
+    most_states: int,
     work: Vector,
     increments: Vector,
     clock: Vector,
@@ -222,9 +222,9 @@ def wear_in_steps(
 
     A step is repeated shorter until its error at every point is at most the tolerance, a part
     of the depth allowed; one in which the flank would conform or gain material is too long. Every
-    state is written to the path until ``greatest`` of them are. The time is in cycles times the
+    state is written to the path until ``most_states`` of them are. The time is in cycles times the
     coefficient that ``law`` leaves out. Ends with DEPTH_REACHED or HORIZON within the last
-    step, RUNNING where the path is full, VANISHED, CONFORMING at once, TOOTHED where the
+    step, RUNNING where the path is full, VANISHED, CONFORMING at once, SAWTOOTH where the
     depth alternates from point to point, or BROKEN where no step is short enough: ``state``
     and ``work`` are then those that failed. The step is handed in like the contact: linked
     in, it would be compiled twice.
@@ -255,7 +255,7 @@ def wear_in_steps(
             return status
         if sawtooth(state[2], depth_limit) >= 0:
             return SAWTOOTH
-        if clock[WRITTEN] >= greatest:
+        if clock[WRITTEN] >= most_states:
             return RUNNING
         grown = MAX
         while True:

@@ -9,7 +9,7 @@ from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import VECTOR, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, int64, int64), quick=True)

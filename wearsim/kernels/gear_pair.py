@@ -31,7 +31,7 @@ from wearsim.kernels.gear_rows import (
 from wearsim.kernels.signatures import CONTACT, TABLE, VECTOR, float64, int64
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 
 @kernel(float64(VECTOR, TABLE, float64, int64))

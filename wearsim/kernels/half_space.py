@@ -9,7 +9,7 @@ from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 CONVERGED, NOT_CONVERGED, OUT_OF_REACH, INVALID = 0, 1, 2, 3
 WORK_ROWS = 14

@@ -11,7 +11,7 @@ from wearsim.kernels.severity import KIND, NONE, make_severe
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 ARC, LOAD, SLIP, SPEED, CURVATURE, NORMAL_X, NORMAL_Y = range(7)
 """Rows of the columns of a flank in offset form."""

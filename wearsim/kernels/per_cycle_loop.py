@@ -12,7 +12,7 @@ from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64,
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 
 CYCLES_ROWS = 9

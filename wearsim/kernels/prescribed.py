@@ -9,7 +9,7 @@ from wearsim.kernels.flank_geometry import add_second_difference
 from wearsim.kernels.signatures import CONTACT
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 
 @kernel(CONTACT)

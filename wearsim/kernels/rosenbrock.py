@@ -20,7 +20,7 @@ from wearsim.kernels.tridiagonal import factorise, solve
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 WORK_ROWS = 18
 """Of the table to work in; its first nine are those of ``flank_rate``."""

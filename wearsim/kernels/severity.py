@@ -9,7 +9,7 @@ from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import VECTOR, float64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 NONE, BY_PRESSURE_SPEED, BY_T_GAMMA = 0.0, 1.0, 2.0
 """Kinds of severity."""

@@ -9,7 +9,7 @@ from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import CONTACT
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 
 @kernel(CONTACT)
@@ -30,7 +30,7 @@ def strand_contact(
     """Write load per width, slip ratio, sliding speed and relative curvature at every point.
 
     The roller centre is one roller radius off the point along the normal and must lie
-    on the strand's line; its distance before the pitch line, the pressure angle and the
+    on the strand's line; its distance before the line of the pitch point, the pressure angle and the
     slip ratio follow without an angle being formed (the distance stands in ``speed`` and
     the cosine in ``relative`` until both are replaced at the end). A point that the line does not
     reach, or outside the stretch that carries load, has load zero.

@@ -36,7 +36,7 @@ from wearsim.kernels.wrap_equilibrium import (
 )
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 _TOLERANCE = 1e-9
 LOOSEST = 1e-2
@@ -56,7 +56,7 @@ def wrap_events(
     touched: Vector,
     configurations: int,
     phases: int,
-    greatest: int,
+    most_rollers: int,
     count: float,
     constants: Vector,
     numbers: Vector,
@@ -77,7 +77,7 @@ def wrap_events(
     that fails ``numbers[START]`` and ``numbers[LOWEST]`` are tried. On a worn
     path an equilibrium may stay loose: up to `LOOSEST` of the tight tension without balance
     along the path is accepted, the most of all phases written to ``numbers[LOOSE]``. Event
-    (configuration, phase, roller) stands in column (configuration phases + phase) most + roller,
+    (configuration, phase, roller) stands in column (configuration phases + phase) most_rollers + roller,
     without load where the force is below the solver's tolerance. Slip of an articulation is
     shared out over the phases of the first and the last position, the way along the path is half
     of that from the phase before and to the phase after. Returns SEATED or how the first failing
@@ -118,8 +118,8 @@ def wrap_events(
                 status = SEATED if left <= LOOSEST else STALLED
             if status != SEATED:
                 return status
-            base = (configuration * phases + step) * greatest
-            for i in range(greatest):
+            base = (configuration * phases + step) * most_rollers
+            for i in range(most_rollers):
                 events[EVENT_LOAD, base + i] = 0.0
             place_rollers(loci[0], loci[bodies - 1], configuration, rollers, position, 0.0, gap_work)
             for i in range(rollers):
@@ -139,13 +139,13 @@ def wrap_events(
                 events[EVENT_SLIP, event] = ends * numbers[ARTICULATION_SLIP] / phases
     for configuration in range(configurations):
         for step in range(phases):
-            for i in range(greatest):
-                here = (configuration * phases + step) * greatest + i
+            for i in range(most_rollers):
+                here = (configuration * phases + step) * most_rollers + i
                 if events[EVENT_LOAD, here] == 0.0:
                     continue
                 way = 0.0
                 for side in range(2):
-                    there = same_roller(configuration, step, i, side, configurations, phases, greatest)
+                    there = same_roller(configuration, step, i, side, configurations, phases, most_rollers)
                     if there >= 0 and events[EVENT_LOAD, there] > 0.0:
                         dx = events[EVENT_CENTRE_X, there] - events[EVENT_CENTRE_X, here]
                         dy = events[EVENT_CENTRE_Y, there] - events[EVENT_CENTRE_Y, here]

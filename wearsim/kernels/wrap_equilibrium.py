@@ -9,7 +9,7 @@ from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 SEATED, JUMPED, STALLED = 0, 1, 2
 """What a solve ends with: an equilibrium, a roller over a tip, or neither within the iterations."""
@@ -48,12 +48,12 @@ def same_roller(kind: int, phase: int, roller: int, side: int, kinds: int, phase
     Places count by kinds of links, phases and rollers. In the next pitch a roller counts one more from
     the tight end.
     """
-    other, row, rotated = phase + 2 * side - 1, roller, kind
+    other, row, links = phase + 2 * side - 1, roller, kind
     if other < 0 or other >= phases:
         row = roller + (1 if side == 1 else -1)
-        rotated = (kind + 1) % kinds
+        links = (kind + 1) % kinds
         other = 0 if side == 1 else phases - 1
-    return (rotated * phases + other) * most + row if 0 <= row < most else -1
+    return (links * phases + other) * most + row if 0 <= row < most else -1
 
 
 @kernel(void(TABLE, TABLE, int64, int64, VECTOR, float64, TABLE))

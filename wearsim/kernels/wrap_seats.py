@@ -20,7 +20,7 @@ from wearsim.kernels.wrap_equilibrium import (
 )
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 # rows of the table of seats, a column for every roller in every phase: centre in its gap, nearest cell,
 # half of the width that presses, cells that may press, friction, force on the tooth, where it presses,

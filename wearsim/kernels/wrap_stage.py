@@ -36,7 +36,7 @@ from wearsim.kernels.wrap_seats import (
 from wearsim.kernels.wrap_wear import SPACING, UNWORN_CURVATURE, recede, worn_width
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 # rows of the table of blocks, after the constants of `wrap_equilibrium`
 COUNT, PITCH_TIME = CONSTANTS, CONSTANTS + 1

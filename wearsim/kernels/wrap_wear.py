@@ -1,4 +1,4 @@
-"""Wear by contacts that dwell: each event presses its roller on the worn outline and wears it."""
+"""Wear by contacts that rest: each event presses its roller on the worn outline and wears it."""
 
 from __future__ import annotations
 
@@ -22,11 +22,10 @@ from wearsim.kernels.half_space import CONVERGED, NOT_CONVERGED, power_contact
 from wearsim.kernels.signatures import TABLE, VECTOR, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.geometry.profile_points import Vector
+    from wearsim.kernels.signatures import Vector
 
 # rows of the table of the unworn outline
 UNWORN_X, UNWORN_Y, UNWORN_NORMAL_X, UNWORN_NORMAL_Y, UNWORN_CURVATURE, SPACING = range(6)
-UNWORN_ROWS = 6
 
 # numbers of a step
 (

@@ -53,9 +53,9 @@ def is_slow(case: Case) -> bool:
 def estimate(source: CaseText, case: Case, check: Callable[[float], None]) -> WearResult | None:
     """Return a first estimate of a life that takes seconds, on few points and with long steps."""
     rough = []
-    for key, greatest in _ROUGH.items():
+    for key, roughest in _ROUGH.items():
         table, _, name = key.partition(".")
-        rough.append(f"{key}={min(greatest, case.inputs[table][name])}")
+        rough.append(f"{key}={min(roughest, case.inputs[table][name])}")
     tolerance = max(ROUGH_TOLERANCE, case.run.life_tolerance)
     try:
         return simulate(

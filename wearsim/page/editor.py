@@ -52,7 +52,7 @@ class CasePage:
         self._palette = palettes()[0]
         self._history = EditHistory()
         self._client = ui.context.client
-        self._keeper = FileSaver(file, lambda: self._text, self._found, self._reloaded, self._named)
+        self._keeper = FileSaver(file, lambda: self._text, self._lived, self._reloaded, self._named)
         ui.add_css(style(palettes()))
         ui.dark_mode(None)
         self._build()
@@ -245,7 +245,7 @@ class CasePage:
         what = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
         self._header.show_state("old", f"{what}: the answer is of an earlier input")
 
-    def _found(self) -> Mapping[str, tuple[Case, WearResult]]:
+    def _lived(self) -> Mapping[str, tuple[Case, WearResult]]:
         """Give cases and results of the wheels of the present input, none before they are there."""
         version, wheels = self._wheels
         return wheels if version == self._version else {}

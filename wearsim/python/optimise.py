@@ -72,7 +72,7 @@ class OptimiseResult(DrawnAnswer):
     @property
     def candidates(self) -> pd.DataFrame:
         """A row for each design that was tried, the case as given first."""
-        return candidates_table(self.outcome, (self.outcome.given, *self.outcome.candidates))
+        return candidates_table(self.outcome, (self.outcome.unchanged, *self.outcome.candidates))
 
     def tables(self) -> dict[str, pd.DataFrame]:
         """Return the best designs, and all.

@@ -17,7 +17,7 @@ from wearsim.python.answer import DrawnAnswer
 from wearsim.python.case_input import CaseInput, given_input, loaded
 from wearsim.python.study_run import THREADS, Progress, run, silent
 from wearsim.quantities import grouped
-from wearsim.report.text_lines import defaults_by_kind
+from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.run_study import failures
 from wearsim.study.sweep.model import Sweep, load_sweep
 from wearsim.study.sweep.sheet import sweep_json, sweep_text
@@ -88,7 +88,7 @@ class SweepResult(DrawnAnswer):
         """Return how many cases failed, and warnings that differ in more than their numbers."""
         texts = (text for joined in self.cases["warnings"] for text in filter(None, joined.split("\n")))
         found = [
-            f"{count} of {len(self.cases)} cases, such as: {text}" for text, count in defaults_by_kind(texts)
+            f"{count} of {len(self.cases)} cases, such as: {text}" for text, count in counts_by_kind(texts)
         ]
         return [*filter(None, [failures(self.cases)]), *found]
 

@@ -131,12 +131,12 @@ def stated_and_defaults(assumptions: tuple[str, ...]) -> tuple[list[str], list[s
     return [text for text in assumptions if text not in defaults], defaults
 
 
-def defaults_by_kind(texts: Iterable[str]) -> list[tuple[str, int]]:
+def counts_by_kind(texts: Iterable[str]) -> list[tuple[str, int]]:
     """Return the first text of each kind, and how many there are of it.
 
     Examples
     --------
-    >>> defaults_by_kind(["below 1 from 3 h on", "too wide", "below 1 from -4.5e3 h on"])
+    >>> counts_by_kind(["below 1 from 3 h on", "too wide", "below 1 from -4.5e3 h on"])
     [('below 1 from 3 h on', 2), ('too wide', 1)]
     """
     found: dict[str, tuple[str, int]] = {}

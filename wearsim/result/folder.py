@@ -156,7 +156,7 @@ def _stored(folder: Path) -> dict[str, Any]:
         **{name: stored[name] for name in same},
         **{name: _life(life) for name, life in stored["lives"].items()},
         "parts": {name: _life(life) for name, life in stored["parts"].items()},
-        "bands": {name: tuple(map(_life, band)) for name, band in stored.get("bands", {}).items()},
+        "bands": {name: tuple(map(_life, band)) for name, band in stored["bands"].items()},
         "practice": read_opinions(stored["practice"]) if "practice" in stored else None,
         "limits": tuple(LimitState(**state) for state in stored["limits"]),
         "ratings": tuple(map(_rating, stored.get("ratings", ()))),
@@ -184,9 +184,7 @@ def _life(stored: dict[str, float]) -> Life | LowerBound:
 
 
 def _rating(stored: dict[str, Any]) -> RatingFinding:
-    return RatingFinding(
-        **{field.name: stored[field.name] for field in fields(RatingFinding) if field.name in stored}
-    )
+    return RatingFinding(**{field.name: stored[field.name] for field in fields(RatingFinding)})
 
 
 def _named(inputs: Mapping[str, Any]) -> list[str]:

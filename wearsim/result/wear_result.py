@@ -131,13 +131,15 @@ class WearResult:
     environment: Mapping[str, str]
 
     def __repr__(self) -> str:
-        return one_line("WearResult", self.title, *(f"{label} {text}" for label, text in self._found()[:2]))
+        return one_line(
+            "WearResult", self.title, *(f"{label} {text}" for label, text in self._findings()[:2])
+        )
 
     def _repr_html_(self) -> str:
         texts = ("Assumes", self.assumptions), ("Warnings", self.warnings or "none")
-        return html_rows(self.title, [*self._found(), *texts])
+        return html_rows(self.title, [*self._findings(), *texts])
 
-    def _found(self) -> list[tuple[str, str]]:
+    def _findings(self) -> list[tuple[str, str]]:
         found: list[tuple[str, str]] = import_module(_ANSWER).findings(self)
         return found
 

@@ -163,9 +163,9 @@ def value_in(case: Case | DriveCase, key: str) -> Any:
     return value_at(single_cases(case)[first].inputs, f"sprocket.{name}")
 
 
-def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]], place: str) -> Design:
+def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]], file: str) -> Design:
     """Return the cases of a study with the texts of all their files."""
-    _check_keys(document, keys, place)
+    _check_keys(document, keys, file)
     files: dict[str, str] = {}
     tables: Mapping[str, Any] = document.data
     for path in file_paths(document.data):
@@ -184,14 +184,14 @@ def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]
     return Design(document.name, tables, files, tuple(keys), moved)
 
 
-def _check_keys(document: Document, keys: Sequence[str], place: str) -> None:
+def _check_keys(document: Document, keys: Sequence[str], file: str) -> None:
     known = {key.replace("[]", "") for key, _ in schema_fields(schema_of(document.data))}
     faults = []
     for key in keys:
         plain = without_numbers(key)
         if plain not in known:
             text = f"must be a key of a case{nearest(plain, dict.fromkeys(known))}"
-            faults.append(Fault(text, f'"{key}"', place))
+            faults.append(Fault(text, f'"{key}"', file))
     if faults:
         raise CaseError(faults)
 

@@ -35,7 +35,7 @@ class ScatteredKey:
 class ScatteredCase:
     """A case and what of it scatters."""
 
-    place: str  # its file
+    file: str  # what faults call it
     case: Case  # with the values of the file
     document: Document  # the file without [uncertainty], the wear coefficient by its own key
     scatters: tuple[ScatteredKey, ...]  # what scatters, independently of one another
@@ -61,7 +61,7 @@ class ScatteredCase:
     def design(self, shares: Vector) -> Design:
         """Return the cases at some probabilities of the keys."""
         rows = self.values(shares).tolist()
-        return design(self.document, self.keys, rows, self.place)
+        return design(self.document, self.keys, rows, self.file)
 
 
 def load_scattered(

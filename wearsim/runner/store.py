@@ -89,10 +89,10 @@ class Store:
             ) from None
 
 
-def open_store(folder: Path, design: Design, manifest: Mapping[str, Any], force: bool) -> Store:
+def open_store(folder: Path, design: Design, identity: Mapping[str, Any], force: bool) -> Store:
     """Make the folder of a study, or open it to go on."""
-    text = _manifest(design, manifest)
-    old = _found(folder, text, force)
+    text = _manifest(design, identity)
+    old = _own_manifest(folder, text, force)
     if old == text:
         return Store(folder)
     if old is not None:
@@ -102,9 +102,9 @@ def open_store(folder: Path, design: Design, manifest: Mapping[str, Any], force:
     return Store(folder)
 
 
-def check_store(folder: Path, design: Design, manifest: Mapping[str, Any], force: bool) -> None:
+def check_store(folder: Path, design: Design, identity: Mapping[str, Any], force: bool) -> None:
     """Raise where a study cannot go into a folder, as `open_store` does."""
-    _found(folder, _manifest(design, manifest), force)
+    _own_manifest(folder, _manifest(design, identity), force)
 
 
 def own_designs(folder: Path) -> list[Path]:
@@ -119,7 +119,7 @@ def _is_own_design(path: Path) -> bool:
         return _DESIGN_LINE.match(file.readline(200)) is not None
 
 
-def _found(folder: Path, text: str, force: bool) -> str | None:
+def _own_manifest(folder: Path, text: str, force: bool) -> str | None:
     """Manifest of the study that is there, which must be the same one unless it may be replaced."""
     check_free(folder, force=True)
     place = folder / MANIFEST
@@ -140,8 +140,8 @@ def _found(folder: Path, text: str, force: bool) -> str | None:
     return old
 
 
-def _manifest(design: Design, manifest: Mapping[str, Any]) -> str:
-    content = {**ANSWER_HEAD, **manifest, "cases": len(design.rows), "sha256": design.address()}
+def _manifest(design: Design, identity: Mapping[str, Any]) -> str:
+    content = {**ANSWER_HEAD, **identity, "cases": len(design.rows), "sha256": design.address()}
     return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 

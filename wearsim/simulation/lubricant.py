@@ -109,8 +109,8 @@ def sliding_per_cycle(case: Case, contact: FlankContact) -> float:
     if not blocks:
         return path
     # The width of the contact goes with the root of the load.
-    greatest = heaviest_block(blocks).tension
-    return path * math.fsum(block.share * math.sqrt(block.tension / greatest) for block in blocks)
+    heaviest = heaviest_block(blocks).tension
+    return path * math.fsum(block.share * math.sqrt(block.tension / heaviest) for block in blocks)
 
 
 def with_knees(

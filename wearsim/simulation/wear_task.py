@@ -103,12 +103,12 @@ def _law(case: Case) -> WearLaw:
     blocks = case.drive.duty
     if not blocks:
         return law
-    greatest = heaviest_block(blocks)
+    heaviest = heaviest_block(blocks)
     parts = [
         RelativeLoad(
             block.share,
-            block.tension / greatest.tension,
-            block.speed_rpm / greatest.speed_rpm,
+            block.tension / heaviest.tension,
+            block.speed_rpm / heaviest.speed_rpm,
             block.wear_factor,
         )
         for block in blocks

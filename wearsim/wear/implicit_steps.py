@@ -133,7 +133,7 @@ class _StepSize:
     """How many cycles the next step takes: as given, or as many as wear off so much."""
 
     def __init__(self, pace: Pace, depth_limit: float, level: int, cycles_per_step: float) -> None:
-        self.pace, self.limit, self.given = pace, depth_limit, cycles_per_step
+        self.pace, self.limit, self.cycles_per_step = pace, depth_limit, cycles_per_step
         self.refined: float = 2.0**level
         self.rate = 0.0
         self.depth = pace.first * self.limit / self.refined
@@ -144,7 +144,7 @@ class _StepSize:
 
     def cycles(self, bodies: WornBodies) -> float:
         """Return the cycles of the next step, not beyond the life of the chain in use."""
-        cycles = self.given or self._by_depth(bodies)
+        cycles = self.cycles_per_step or self._by_depth(bodies)
         limit = bodies.contact.elongation_limit
         if bodies.contact.elongation_per_cycle > 0.0:
             longest = limit / (self.pace.steps_per_chain * self.refined)
@@ -154,7 +154,7 @@ class _StepSize:
 
     def is_spent(self, bodies: WornBodies) -> bool:
         """Whether the run has taken all of its steps."""
-        return not self.given and bodies.updates >= _MAX_STEPS * self.refined
+        return not self.cycles_per_step and bodies.updates >= _MAX_STEPS * self.refined
 
     def _by_depth(self, bodies: WornBodies) -> float:
         cycles = self.depth / (self.rate or bodies.first_rate())

@@ -259,7 +259,7 @@ def equivalent_factor(law: WearLaw, kind: ContactKind, parts: Iterable[RelativeL
     law : WearLaw
         The wear law.
     kind : ContactKind
-        How the contact meets the points; not one that dwells.
+        How the contact meets the points; not one that rests.
     parts : iterable of RelativeLoad
         The duty, shares summing to 1.
 

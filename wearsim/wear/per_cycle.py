@@ -133,11 +133,11 @@ class _CycleRun:
 
     def _refuse(self) -> None:
         spacing_squared, relative = self.work[3], self.work[7]
-        allowed = spacing_squared * relative / (2.0 * self.diffusion)
-        point = int(np.argmax(self.last_step / allowed))
-        step, limit = self.last_step[point], allowed[point]
-        most_rollers = int(self.cycles_per_update * limit / step)
-        remedy = f"cycles_per_update = {most_rollers}" if most_rollers else "fewer nodes"
+        limits = spacing_squared * relative / (2.0 * self.diffusion)
+        point = int(np.argmax(self.last_step / limits))
+        step, limit = self.last_step[point], limits[point]
+        allowed_cycles = int(self.cycles_per_update * limit / step)
+        remedy = f"cycles_per_update = {allowed_cycles}" if allowed_cycles else "fewer nodes"
         raise ConvergenceError(
             f"wear at cycle {self.ran:.6g}, {self.contact.arc_length[point]:.4g} mm from the root: "
             f"the depth per update must stay below spacing^2/(2 e rho_H) = {limit:.3g} mm, is "
@@ -156,24 +156,24 @@ def check_length(
     """Refuse a run of too many updates before it starts; so many cycles are expected in all."""
     run: Callable[[], object]
     if isinstance(contact, FlankContact):
-        greatest, tried = int(_MAX_POINTS / contact.profile.x.size), 1000
+        most_updates, tried = int(_MAX_POINTS / contact.profile.x.size), 1000
         run = partial(_CycleRun(contact, law, cycles_per_update, stop_limits[0].limit).wear, math.inf, tried)
     else:
         from wearsim.wear.implicit_steps import run_resting
 
-        greatest, tried = _MAX_RESTING, 10
+        most_updates, tried = _MAX_RESTING, 10
         step = float(cycles_per_update)
         run = partial(run_resting, contact, law, stop_limits, tried * step, 0, step)
     updates = expected / cycles_per_update
-    if updates <= greatest:
+    if updates <= most_updates:
         return
     begin = time.perf_counter()
     run()
     minutes = updates / tried * (time.perf_counter() - begin) / 60.0
     length = f"{minutes:.2g} min" if minutes < 99.0 else f"{minutes / 60.0:.0f} h"
     raise ConvergenceError(
-        f"wear: a cycle-by-cycle run must stay below {greatest} updates, takes {updates:.3g}, about "
-        f'{length}: take cycles_per_update = {math.ceil(expected / greatest)} or method = "advance"'
+        f"wear: a cycle-by-cycle run must stay below {most_updates} updates, takes {updates:.3g}, about "
+        f'{length}: take cycles_per_update = {math.ceil(expected / most_updates)} or method = "advance"'
     )
 
 
@@ -193,19 +193,19 @@ def run_per_cycle(
     run = _CycleRun(contact, law, cycles_per_update, stop_limits[0].limit)
     check_touch(contact, run.x, run.y, run.depth, 0.0)
     kept = [(0.0, run.x.copy(), run.y.copy(), run.depth.copy())]
-    most_rollers = int(horizon / cycles_per_update)
-    if most_rollers == 0:
+    most_updates = int(horizon / cycles_per_update)
+    if most_updates == 0:
         raise ConvergenceError(
             f"wear: the horizon of {horizon:.6g} cycles must hold at least one update of "
             f"{cycles_per_update} cycles: take fewer cycles_per_update or more horizon_hours"
         )
     met, interval = None, 0.0
-    while met is None and run.updates < most_rollers:
+    while met is None and run.updates < most_updates:
         before = kept[-1], run.updates
         target = run.depth.max() + interval if interval else 0.0
-        run.wear(target, most_rollers - run.updates)
+        run.wear(target, most_updates - run.updates)
         if not interval:
-            interval = float(min(run.depth_limit, run.depth.max() * most_rollers)) / SNAPSHOTS
+            interval = float(min(run.depth_limit, run.depth.max() * most_updates)) / SNAPSHOTS
         met = first_limit_met(stop_limits, run.x, run.y, run.depth)
         if met is not None and run.updates - before[1] > 1:
             _retreat(run, stop_limits, *before)

@@ -122,8 +122,8 @@ def advance_resting(
     tried = itertools.count()
     finer = contact.refined() if start is None else None
 
-    def run_at(of: RestingContact, level: int) -> tuple[RestingTrajectory, float]:
-        pair = [(of, level), (of.coarsened() if start is None else of, level - 1)]
+    def run_at(contact: RestingContact, level: int) -> tuple[RestingTrajectory, float]:
+        pair = [(contact, level), (contact.coarsened() if start is None else contact, level - 1)]
         order = next(tried)
         report = part_of(progress, 1.0 - _KEPT**order, 1.0 - _KEPT ** (order + 1))
         run, coarse = run_together(pair, law, stop_limits, horizon, start, report)
@@ -131,11 +131,11 @@ def advance_resting(
         return run, spared(run, stop_limits[0].limit, error)
 
     run, error = run_at(contact, 0)
-    for of, levels in ((contact, _LEVELS), (finer, _REFINED_LEVELS)):
+    for candidate, levels in ((contact, _LEVELS), (finer, _REFINED_LEVELS)):
         for level in levels:
-            if error <= life_tolerance or of is None:
+            if error <= life_tolerance or candidate is None:
                 break
-            better, left = run_at(of, level)
+            better, left = run_at(candidate, level)
             if left >= error:
                 # Halved steps help no more.
                 break

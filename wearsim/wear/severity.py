@@ -105,56 +105,6 @@ def t_gamma_energy(mean_pressure: _Energy, slip_ratio: _Energy, friction: float)
     return friction * mean_pressure * slip_ratio
 
 
-def t_gamma_rate(energy: float) -> float:
-    """Return the published rate of wear of the wheel steel R8T on the rail steel UIC60 900A.
-
-    Equation physics.md (L8).
-
-    Parameters
-    ----------
-    energy : float
-        T-gamma over the contact area [N/mm2].
-
-    Returns
-    -------
-    float
-        Mass worn off per metre rolled and area of the contact [ug/(m mm2)].
-
-    Examples
-    --------
-    >>> t_gamma_rate(10.0), t_gamma_rate(50.0), round(t_gamma_rate(87.2), 9)
-    (53.0, 55.0, 674.0)
-    """
-    return float(kernel.t_gamma_rate(energy))
-
-
-def t_gamma_depth(energy: float, half_width: float) -> float:
-    """Return the depth that a contact wears off at each of its passages.
-
-    Equation physics.md (L8).
-
-    Parameters
-    ----------
-    energy : float
-        T-gamma over the contact area [N/mm2].
-    half_width : float
-        Of the contact [mm].
-
-    Returns
-    -------
-    float
-        W 2a/rho [mm], with 7850 kg/m3.
-
-    Examples
-    --------
-    53 ug/(m mm2) under a contact 1 mm wide are 53e-6 g/m over 7.85e-3 g/mm3 and 1000 mm/m:
-
-    >>> round(t_gamma_depth(10.0, 0.5) * 7.85e6, 9)
-    53.0
-    """
-    return t_gamma_rate(energy) * 2.0 * half_width / _DENSITY
-
-
 def t_gamma_coefficient(friction: float) -> float:
     """Return the specific wear rate of the mild branch [mm2/N], which is Archard's law.
 

@@ -84,9 +84,9 @@ def no_sliding(cycles: float) -> ContactError:
 
 def check_fold(contact: FlankContact, run: Trajectory) -> None:
     """Raise where the worn flank crosses itself."""
-    rotated = overturned(run.x, run.y)
-    if rotated.any():
-        shot, point = np.argwhere(rotated)[0]
+    against = overturned(run.x, run.y)
+    if against.any():
+        shot, point = np.argwhere(against)[0]
         raise ConvergenceError(
             f"wear at cycle {run.cycles[shot]:.6g}, {contact.arc_length[point]:.4g} mm from the root: the "
             "worn flank must run the same way as the new one, but is worn beyond its centre of "

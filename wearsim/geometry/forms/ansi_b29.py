@@ -44,27 +44,6 @@ class TypeIITooth(ConcaveTooth):
         return 2.0 * self.seat_radius
 
     @property
-    def working_chord(self) -> float:
-        """Chord of the working arc [mm] (xy)."""
-        return 2.0 * self.working_radius * math.sin(0.5 * self.working_angle)
-
-    @property
-    def pointed_height(self) -> float:
-        """Way from the foot of the head's centre to the pointed tip on the tooth's axis [mm] (H).
-
-        Not a number where the heads of a tooth do not meet, P > 2.8 Dr + 2 F.
-        """
-        aside = self.head_ratio * self.roller_diameter - 0.5 * self.pitch
-        square = self.head_radius**2 - aside**2
-        return math.sqrt(square) if square >= 0.0 else math.nan
-
-    @property
-    def pointed_offset(self) -> float:
-        """Distance of the pointed tip from the gap's centre line [mm] (S)."""
-        half = math.pi / self.teeth
-        return 0.5 * self.pitch * math.cos(half) + self.pointed_height * math.sin(half)
-
-    @property
     def outside_diameter(self) -> float:
         """Diameter of the tip circle for J = 0.3 P, P (0.6 + cot(180/N)) [mm] (OD)."""
         return self.pitch * (0.6 + 1.0 / math.tan(math.pi / self.teeth))
@@ -72,12 +51,6 @@ class TypeIITooth(ConcaveTooth):
     def root_diameter(self, seat_centre: SeatCentre = "pitch_circle") -> float:
         """Return the diameter of the circle through the bottoms of the gaps."""
         return 2.0 * (self._height(seat_centre) - self.seat_radius)
-
-    def pointed_diameter(self, seat_centre: SeatCentre = "pitch_circle") -> float:
-        """Return the diameter at which the teeth are pointed."""
-        half = math.pi / self.teeth
-        shift = self._height(seat_centre) - 0.5 * self.pitch_diameter
-        return self.pitch / math.tan(half) + 2.0 * math.cos(half) * shift + 2.0 * self.pointed_height
 
     def _height(self, seat_centre: SeatCentre) -> float:
         return seat_height(

@@ -21,7 +21,7 @@ class Strand:
     """A sprocket and the straight line of roller centres that runs past it.
 
     The sprocket turns clockwise about the origin, the strand moves along +x, the pitch point
-    is (0, centrode radius); a roller is called by its distance x before the pitch line.
+    is (0, centrode radius); a roller is called by its distance x before the line of the pitch point.
 
     Examples
     --------
@@ -47,7 +47,7 @@ class Strand:
         Parameters
         ----------
         x : array_like
-            Distance of the roller centre before the pitch line [mm].
+            Distance of the roller centre before the line of the pitch point [mm].
 
         Returns
         -------
@@ -64,7 +64,7 @@ class Strand:
         Parameters
         ----------
         x : array_like
-            Distance of the roller centre before the pitch line [mm].
+            Distance of the roller centre before the line of the pitch point [mm].
 
         Returns
         -------
@@ -81,7 +81,7 @@ class Strand:
         Parameters
         ----------
         x : array_like
-            Distance of the roller centre before the pitch line [mm].
+            Distance of the roller centre before the line of the pitch point [mm].
 
         Returns
         -------
@@ -104,7 +104,7 @@ class Strand:
         Parameters
         ----------
         x : array_like
-            Distance of the roller centre before the pitch line at contact [mm].
+            Distance of the roller centre before the line of the pitch point at contact [mm].
 
         Returns
         -------
@@ -127,7 +127,7 @@ class Strand:
         Parameters
         ----------
         x : array_like
-            Distance of the roller centre before the pitch line at contact [mm].
+            Distance of the roller centre before the line of the pitch point at contact [mm].
 
         Returns
         -------
@@ -154,7 +154,7 @@ class EvoluteFlank:
     """An evolute flank with, at every node, the roller position that touches it."""
 
     strand: Strand  # sprocket and line of roller centres
-    contact_distance: Vector  # distance x of the roller centre before the pitch line [mm], root to tip
+    contact_distance: Vector  # distance x of the roller centre [mm], root to tip
     profile: Profile  # the flank in the sprocket's frame
 
 
@@ -186,7 +186,7 @@ def evolute_flank(strand: Strand, contact_end: float, contact_start: float, node
     Raises
     ------
     GeometryError
-        The range of contact is empty or reaches the pitch line.
+        The range of contact is empty or reaches the line of the pitch point.
     """
     if not 0.0 < contact_end < contact_start:
         raise GeometryError(

@@ -91,40 +91,9 @@ class GostTooth(ConcaveTooth):
         return self.pitch_diameter - 2.0 * self.seat_radius
 
     @property
-    def largest_chord(self) -> float:
-        """Distance of bottoms that lie nearly opposite, for odd z [mm] (Lx)."""
-        return self.pitch_diameter * math.cos(0.5 * math.pi / self.teeth) - 2.0 * self.seat_radius
-
-    @property
     def displacement(self) -> float:
         """Distance e = 0.03 t of the two seat centres of a displaced gap [mm]."""
         return 0.03 * self.pitch
-
-
-def tooth_width(inner_width: float, strands: int = 1) -> float:
-    """Return the width of the tooth of GOST 591.
-
-    Parameters
-    ----------
-    inner_width : float
-        Width between the inner plates [mm].
-    strands : int
-        Chains side by side.
-
-    Returns
-    -------
-    float
-        0.93 b - 0.15 for one strand, 0.90 b - 0.15 for two and three, 0.86 b - 0.30
-        for more [mm].
-
-    Examples
-    --------
-    >>> round(tooth_width(10.0), 6)
-    9.15
-    """
-    if strands == 1:
-        return 0.93 * inner_width - 0.15
-    return 0.90 * inner_width - 0.15 if strands <= 3 else 0.86 * inner_width - 0.30
 
 
 def gost591_gap(

@@ -87,8 +87,8 @@ class ConvexConcaveFlank:
             Length [mm], negative on the foot.
         """
         a, c = np.asarray(alpha, dtype=float), self.pitch_point_angle
-        rotated = (a - c) * math.cos(c) + math.sin(c) * np.log(math.cos(c) / np.cos(a))
-        return np.asarray(2.0 * self.side * self.arc_radius * rotated)
+        rolled = (a - c) * math.cos(c) + math.sin(c) * np.log(math.cos(c) / np.cos(a))
+        return np.asarray(2.0 * self.side * self.arc_radius * rolled)
 
     def angle_at_rolled_length(self, length: ArrayLike) -> Vector:
         """Return the pressure angle after so much rolling from the pitch point, by Newton's method.
@@ -151,15 +151,15 @@ class ConvexConcaveFlank:
             Coordinates [mm], shape (..., 2).
         """
         l, phi = self.path_coordinate(alpha), self.roll_angle(alpha)
-        rotated = np.asarray(alpha, dtype=float) + phi
-        x = -l * np.cos(rotated) + self.pitch_radius * np.sin(phi)
-        y = l * np.sin(rotated) + self.pitch_radius * np.cos(phi)
+        angle = np.asarray(alpha, dtype=float) + phi
+        x = -l * np.cos(angle) + self.pitch_radius * np.sin(phi)
+        y = l * np.sin(angle) + self.pitch_radius * np.cos(phi)
         return np.stack([x, y], axis=-1)
 
     def normals(self, alpha: ArrayLike) -> Vector:
         """Return the unit normals that point from the tooth into the gap."""
-        rotated = np.asarray(alpha, dtype=float) + self.roll_angle(alpha)
-        return np.stack([-np.cos(rotated), np.sin(rotated)], axis=-1)
+        angle = np.asarray(alpha, dtype=float) + self.roll_angle(alpha)
+        return np.stack([-np.cos(angle), np.sin(angle)], axis=-1)
 
     def radius(self, alpha: ArrayLike) -> Vector:
         """Return the distance of the flank from the axis, r_y^2 = r^2 + l^2 + 2 r l sin alpha."""

@@ -121,36 +121,6 @@ def _root(function: Callable[[float], float], start: float, end: float) -> float
     return float(brentq(function, start, end, xtol=1e-13 * abs(end), rtol=1e-13))
 
 
-def linear_face_load_factor(mesh: WideMesh, misalignment: float) -> float:
-    """Face load factor of a linear gap, the closed form.
-
-    With x = c F_beta / q_m: K = 1 + x/2 up to x = 2, where one edge just carries nothing, then
-    K = (2 x)^(1/2); so ISO 6336-1, method C.
-
-    Equation face-load.md (2).
-
-    Parameters
-    ----------
-    mesh : WideMesh
-        The mesh.
-    misalignment : float
-        F_beta, gap of one edge while the other touches [mm].
-
-    Returns
-    -------
-    float
-        K_Hbeta.
-
-    Examples
-    --------
-    >>> mesh = WideMesh.of(face_width=100.0, slices=10, stiffness=2e4, force=1e5)
-    >>> [linear_face_load_factor(mesh, x) for x in (0.05, 0.1, 0.4)]
-    [1.5, 2.0, 4.0]
-    """
-    ratio = mesh.stiffness * misalignment / mesh.mean_load
-    return 1.0 + 0.5 * ratio if ratio <= 2.0 else math.sqrt(2.0 * ratio)
-
-
 def equivalent_misalignment(mesh: WideMesh, factor: float) -> float:
     """Linear gap that has a face load factor, the closed form solved for it.
 

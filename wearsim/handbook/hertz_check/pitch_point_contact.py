@@ -138,9 +138,9 @@ class InputChange:
     """What one key alone must be for a contact stress."""
 
     key: str  # of the input's table `contact`
-    # given, needed: its value in the input, and that which gives the stress, in the unit of the key; nan
+    # present, needed: its value in the input, and that which gives the stress, in the unit of the key; nan
     # where none does
-    given: float
+    present: float
     needed: float
     ends: tuple[float, float]  # what gives the ends of the stress's rounding, in the order of the ends
 

@@ -134,7 +134,7 @@ def _change(one: InputChange) -> dict[str, Any]:
     low, high = sorted(one.ends)
     return {
         "key": one.key,
-        "given_value": one.given,
+        "given_value": one.present,
         "needed_value": _known(one.needed),
         "least_needed_value": _known(low),
         "greatest_needed_value": _known(high),

@@ -24,32 +24,6 @@ _PRINTED_SUMS = ("printed", "printed_sums")
 _PRINTED_AMPLITUDE = ("printed", "printed_amplitude")
 
 
-def direct_coefficients(wheel: Wheel, contact_ratio: float, harmonics: ArrayLike) -> Complexes:
-    """Two-sided Fourier coefficients of one wheel's contact function, summed over its teeth.
-
-    C(n) = A_n sum over i of e^(-jn theta_i), A_n = (eps/z) sin(x)/x with x = n pi eps/z.
-
-    Equation stiffness-spectrum.md (5), its A_n.
-
-    Parameters
-    ----------
-    wheel : Wheel
-        The wheel.
-    contact_ratio : float
-        eps.
-    harmonics : array_like of int
-        n, in turns of the wheel.
-
-    Returns
-    -------
-    ndarray of complex
-        C(n).
-    """
-    n = np.asarray(harmonics)
-    rotated = np.exp(-1j * n[:, np.newaxis] * wheel.tooth_angles)
-    return np.asarray(_pulse(wheel, contact_ratio, n) * rotated.sum(axis=1))
-
-
 def _pulse(wheel: Wheel, contact_ratio: float, n: NDArray[np.integer]) -> Floats:
     """A_n, the coefficient of one tooth's pulse; numpy's sinc is sin(pi x)/(pi x)."""
     duty = contact_ratio / wheel.teeth

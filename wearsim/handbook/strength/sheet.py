@@ -122,7 +122,7 @@ def _load_rows(load: ToothLoad) -> list[str]:
 
 
 def _lives(acting: Sequence[StressCheck], pair: PairStrength, what: str) -> str:
-    """Say which gear is the first to reach its life by a stop limit."""
+    """Say which gear is the first to reach its life by one kind of fatigue."""
     place, life = first_life([one.life for one in acting])
     if life.bound:
         return f"{what} fatigue: {_hours(life)}, neither gear ever reaches its limit"

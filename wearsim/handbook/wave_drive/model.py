@@ -29,7 +29,7 @@ class DiameterMethod:
 
     name: str  # table of the input that holds what it allows
     source: str  # number of the textbook in the source's list
-    stop_limit: str  # what it limits
+    criterion: str  # what it limits
     # from the numbers of the drive and of the method to the diameter [mm]
     diameter: Callable[[Values], float]
     # least and greatest value that the source recommends, for each key of the method that it gives one for

@@ -64,7 +64,7 @@ def _row(one: MethodDiameter) -> dict[str, Any]:
     return {
         "sizing_method": one.method.name,
         "textbook": one.method.source,
-        "criterion": one.method.stop_limit,
+        "criterion": one.method.criterion,
         "flexspline_diameter_mm": one.diameter,
         "least_diameter_mm": one.least,
         "greatest_diameter_mm": one.greatest,
@@ -88,7 +88,7 @@ def _text(title: str, found: Sequence[MethodDiameter], assumptions: tuple[str, .
             ranks += f" ({one.least_rank}-{one.greatest_rank})"
         shown = "" if math.isnan(one.published) else f"{one.published:g}"
         lines.append(
-            f"  {one.method.name:18s}{one.method.source:5s}{one.method.stop_limit:26s}"
+            f"  {one.method.name:18s}{one.method.source:5s}{one.method.criterion:26s}"
             f"{one.diameter:8.1f}{span:>15s}{ranks:>9s}{shown:>11s}".rstrip()
         )
     published = [f"  {_held(one)}" for one in found if not math.isnan(one.published)]

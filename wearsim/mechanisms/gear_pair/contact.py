@@ -94,8 +94,8 @@ class GearPairMechanism:
         mesh = self.mesh
         first, last = mesh.place[-1] - mesh.pitch, mesh.place[0] + mesh.pitch
         load = self.torque / mesh.lever
-        rotated = mesh.pitch / (math.tau / self.pair.teeth[0]) / mesh.lever
-        width = 2.0 * float((half_width(load, self.curvature, self.modulus) * rotated).max())
+        rolled = mesh.pitch / (math.tau / self.pair.teeth[0]) / mesh.lever
+        width = 2.0 * float((half_width(load, self.curvature, self.modulus) * rolled).max())
         inside = np.minimum(mesh.place - first, last - mesh.place) / max(width, 1e-9) + 0.5
         share: Vector = 0.5 + 0.5 * np.clip(inside, 0.0, 1.0)
         return share

@@ -44,13 +44,13 @@ class GearDrive(Drive):
         """Return both gears."""
         from wearsim.mechanisms.gear_pair.scene import gear_scene
 
-        return gear_scene(self)
+        return gear_scene(self.pair, self.points)
 
     def wheels(self, engaged_every: int, last: Mapping[str, Vector] | None = None) -> tuple[WheelShape, ...]:
         """Return pinion and wheel, new and worn."""
         from wearsim.mechanisms.gear_pair.scene import gear_wheels
 
-        return gear_wheels(self, last)
+        return gear_wheels(self.pair, self.points, self.face_width, last)
 
     def mate(self, last: Mapping[str, Vector], node: int) -> tuple[float, str]:
         """Return the wheel's flank where it meets the pinion's."""

@@ -2,20 +2,17 @@
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.involute_function import involute_function
+from wearsim.geometry.gear.mesh import ToothPair
 from wearsim.geometry.outline import rotated
 from wearsim.geometry.outline_stretch import OutlineStretch, along_points, up_to
 from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Circle, Label, Scene, around, letter_height, line, turn_arrow
 from wearsim.geometry.wheel_outline import ToothSpace, WheelShape, worn_space
-
-if TYPE_CHECKING:
-    from wearsim.mechanisms.gear_pair.drive import GearDrive
 
 _FLANKS_ONLY = (
     "flanks from where contact starts to the tip: the case tells no root, so the outline is open",
@@ -29,21 +26,20 @@ _ROOTED = (
 
 
 def gear_wheels(
-    drive: "GearDrive", last: Mapping[str, Vector] | None = None
+    pair: ToothPair, points: int, face_width: float, last: Mapping[str, Vector] | None
 ) -> tuple[WheelShape, WheelShape]:
     """Return pinion and wheel at their centre distance, in contact at the pitch point.
 
     They are worn to the last snapshot of a run where there is one.
     """
-    mesh, circles = drive.pair.mesh(drive.points), drive.pair.circles
+    mesh, circles = pair.mesh(points), pair.circles
     shapes = []
     for gear, flank in enumerate((mesh.flank, mesh.mate)):
-        points = np.column_stack([flank.x, flank.y])
         radius = (circles.pinion_radius, circles.wheel_radius)[gear]
-        count = drive.pair.teeth[gear]
-        turn = 0.5 * math.pi + math.pi / count - _tooth_centre(drive, gear)
-        fresh = rotated(points, turn)
-        new = _space(drive, gear, fresh)
+        count = pair.teeth[gear]
+        turn = 0.5 * math.pi + math.pi / count - _tooth_centre(pair, gear)
+        fresh = rotated(np.column_stack([flank.x, flank.y]), turn)
+        new = _space(pair, gear, fresh)
         gone: tuple[ToothSpace, ...] = ()
         if last is not None:
             gone = (_worn(new, fresh, rotated(_worn_points(last, gear), turn)),) * count
@@ -54,7 +50,7 @@ def gear_wheels(
                 new=(new,) * count,
                 worn=gone,
                 pitch_radius=radius,
-                width=drive.face_width,
+                width=face_width,
                 notes=_ROOTED if new.rooted else _FLANKS_ONLY,
                 turn=(0.5 * math.pi, -0.5 * math.pi)[gear] - pitch_point,
                 centre=(0.0, gear * circles.centre_distance),
@@ -70,9 +66,9 @@ def _worn_points(last: Mapping[str, Vector], gear: int) -> Vector:
     return np.column_stack([last["wheel_x_mm"], last["wheel_y_mm"]])[::-1]
 
 
-def _tooth_centre(drive: "GearDrive", gear: int) -> float:
+def _tooth_centre(pair: ToothPair, gear: int) -> float:
     """Polar angle of the centre line of the tooth, in the frame of the flank's points."""
-    pair, count = drive.pair, drive.pair.teeth[gear]
+    count = pair.teeth[gear]
     if isinstance(pair, InvolutePair):
         shift, angle = pair.profile_shift[gear], pair.pressure_angle
         half = (0.5 * math.pi + 2.0 * shift * math.tan(angle)) / count
@@ -86,18 +82,18 @@ def _angle_at(points: Vector, radius: float) -> float:
     return float(np.interp(radius, np.hypot(*points.T), angle))
 
 
-def _space(drive: "GearDrive", gear: int, points: Vector) -> ToothSpace:
+def _space(pair: ToothPair, gear: int, points: Vector) -> ToothSpace:
     """Space whose left side is a flank by its points, with a root where the tool makes one."""
     flank = along_points("flank", points)
-    if isinstance(drive.pair, InvolutePair):
+    if isinstance(pair, InvolutePair):
         return ToothSpace((flank.mirrored("back_flank"),), (flank,), rooted=False)
     # The other forms need scipy.
     from wearsim.geometry.gear.convex_concave import ConvexConcave
     from wearsim.geometry.gear.convex_concave_outline import half_tooth
 
-    if not isinstance(drive.pair, ConvexConcave):
+    if not isinstance(pair, ConvexConcave):
         return ToothSpace((flank.mirrored("back_flank"),), (flank,), rooted=False)
-    body = (drive.pair.pinion, drive.pair.wheel)[gear]
+    body = (pair.pinion, pair.wheel)[gear]
     vertices, bulges, foot = half_tooth(body, None, "radial")
     vertices = rotated(vertices, -math.pi / body.teeth)
     right = (
@@ -116,10 +112,10 @@ def _worn(new: ToothSpace, fresh: Vector, points: Vector) -> ToothSpace:
     return worn_space(ToothSpace(new.right, (root, below, along_points("flank", fresh))), points)
 
 
-def gear_scene(drive: "GearDrive") -> Scene:
+def gear_scene(pair: ToothPair, points: int) -> Scene:
     """Return pitch and tip circles of both gears, and the path of contact."""
-    circles, mesh = drive.pair.circles, drive.pair.mesh(drive.points)
-    middle, (pinion, wheel) = circles.centre_distance, drive.pair.teeth
+    circles, mesh = pair.circles, pair.mesh(points)
+    middle, (pinion, wheel) = circles.centre_distance, pair.teeth
     centres = ((0.0, 0.0), (middle, 0.0))
     radii = (circles.pinion_radius, circles.wheel_radius)
     tips = [math.hypot(side.x[-1], side.y[-1]) for side in (mesh.flank, mesh.mate)]
@@ -151,7 +147,7 @@ def gear_scene(drive: "GearDrive") -> Scene:
             f"pitch circles {2 * radii[0]:.2f} and {2 * radii[1]:.2f} mm "
             f"(dash-dotted), tip circles {2 * tips[0]:.2f} and {2 * tips[1]:.2f} mm",
             f"thick: path of contact, contact ratio {mesh.contact_ratio:.3g}, pressure angle at the "
-            f"pitch point {math.degrees(drive.pair.pitch_point_angle):.2f} degrees",
+            f"pitch point {math.degrees(pair.pitch_point_angle):.2f} degrees",
             "a pair of gears has no wrap",
         ),
     ).with_scale()

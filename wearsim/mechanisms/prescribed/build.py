@@ -30,7 +30,7 @@ def prescribed_drive(
     if tables.mechanism.table_file is None:
         case.faults.add(key, "kind = 'prescribed' needs the file of load and sliding")
         return None
-    table = read_prescribed(case.path(key, tables.mechanism.table_file), key, case.faults)
+    table = read_prescribed(case.path(tables.mechanism.table_file), key, case.faults)
     if table is None:
         return None
     if wear.speed_exponent != 0.0 and table.sliding_speed is None:

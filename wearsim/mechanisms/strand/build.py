@@ -80,6 +80,6 @@ def _blocks(
     pull, least = heaviest_block(loaded).tension, min(block.tension for block in loaded)
     shown = f"{pull:.6g} N" if len(loaded) == 1 else f"{least:.4g} to {pull:.6g} N"
     case.assumptions.append(f"pull on the flank {shown} (slack strand without tension)")
-    greatest = heaviest_block(rated)
-    key = duty.rated[rated.index(greatest)].key
-    return blocks if within_strength(case, greatest.tension, chain, key) else None
+    heaviest = heaviest_block(rated)
+    key = duty.rated[rated.index(heaviest)].key
+    return blocks if within_strength(case, heaviest.tension, chain, key) else None

@@ -24,7 +24,7 @@ def load_share(x: Vector, contact_end: float, contact_start: float, pitch: float
     Parameters
     ----------
     x : numpy.ndarray
-        Distance of the roller centre before the pitch line [mm].
+        Distance of the roller centre before the line of the pitch point [mm].
     contact_end, contact_start : float
         x_min and x_max [mm].
     pitch : float
@@ -125,8 +125,8 @@ class StrandMechanism:
         touching = inside > 0.0
         distance = -np.sqrt(inside[touching])
         turn = np.arctan2(self.strand.height, distance) - np.arctan2(centre_y[touching], centre_x[touching])
-        rotated = float(turn.max() - turn.min()) % (2.0 * math.pi)
-        return rotated * self.strand.centrode_radius / self.pitch
+        engaged = float(turn.max() - turn.min()) % (2.0 * math.pi)
+        return engaged * self.strand.centrode_radius / self.pitch
 
     def assumptions(self) -> list[str]:
         """Return what this picture takes for granted."""

@@ -116,13 +116,14 @@ class StrandDrive(Drive):
         """Return the sprocket on its strand."""
         from wearsim.mechanisms.strand.scene import strand_scene
 
-        return strand_scene(self, engaged_every)
+        (wheel,) = self.wheels(engaged_every)
+        return strand_scene(wheel, self.tooth, self.chain.pitch, self.pull, engaged_every)
 
     def wheels(self, engaged_every: int, last: Mapping[str, Vector] | None = None) -> tuple[WheelShape, ...]:
         """Return the sprocket, new and worn."""
         from wearsim.mechanisms.strand.scene import strand_wheel
 
-        return (strand_wheel(self, engaged_every, last),)
+        return (strand_wheel(self.tooth, self.face_width, self.hub, engaged_every, last),)
 
     def body(self) -> tuple[Stroke, ...]:
         """Return the whole sprocket where its flank is an evolute profile."""

@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wearsim.geometry.blank import tooth_space
+from wearsim.geometry.hub import Hub
 from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import (
     Circle,
@@ -18,18 +18,15 @@ from wearsim.geometry.scene import (
     straight_arrow,
     turn_arrow,
 )
+from wearsim.geometry.tooth import Tooth
 from wearsim.geometry.wheel_outline import ToothSpace, WheelShape, worn_alike, worn_space
 from wearsim.quantities import grouped
 
-if TYPE_CHECKING:
-    from wearsim.mechanisms.strand.drive import StrandDrive
-
 
 def strand_wheel(
-    drive: "StrandDrive", engaged_every: int, last: Mapping[str, Vector] | None = None
+    tooth: Tooth, face_width: float, hub: Hub, engaged_every: int, last: Mapping[str, Vector] | None
 ) -> WheelShape:
     """Return the sprocket, worn to the last snapshot of a run where there is one."""
-    tooth = drive.tooth
     new = tooth_space(tooth)
     every = math.gcd(tooth.teeth, engaged_every)
     worn: tuple[ToothSpace, ...] = ()
@@ -39,16 +36,16 @@ def strand_wheel(
     notes = (
         "seat and tip are arcs, the tip about the axis; back flank and seat do not wear",
         worn_alike(every),
-        *drive.hub.notes,
+        *hub.notes,
     )
     radius = tooth.strand.centrode_radius
-    return WheelShape("sprocket", (new,) * tooth.teeth, worn, radius, drive.face_width, notes, hub=drive.hub)
+    return WheelShape("sprocket", (new,) * tooth.teeth, worn, radius, face_width, notes, hub=hub)
 
 
-def strand_scene(drive: "StrandDrive", engaged_every: int) -> Scene:
+def strand_scene(wheel: WheelShape, tooth: Tooth, pitch: float, pull: float, engaged_every: int) -> Scene:
     """Return the sprocket with its straight strand."""
-    tooth, strand, pitch = drive.tooth, drive.tooth.strand, drive.chain.pitch
-    tip, radius = tooth.tip_radius, strand.roller_radius
+    strand, tip = tooth.strand, tooth.tip_radius
+    radius = strand.roller_radius
     reach = math.ceil(1.35 * tip / pitch) * pitch
     rollers = np.arange(-reach, 1.5 * reach, pitch)
     y, above = strand.height, strand.height + 2.2 * radius
@@ -56,7 +53,7 @@ def strand_scene(drive: "StrandDrive", engaged_every: int) -> Scene:
     return Scene(
         box,
         (
-            strand_wheel(drive, engaged_every).sketched("worn"),
+            wheel.sketched("worn"),
             Circle("pitch", (0.0, 0.0), strand.centrode_radius),
             line("chain", [(-reach, y), (reach, y)]),
             *(Circle("roller", (x, y), radius) for x in rollers.tolist() if x <= reach + 0.1 * pitch),
@@ -71,6 +68,6 @@ def strand_scene(drive: "StrandDrive", engaged_every: int) -> Scene:
             f"of roller centres {strand.offset:.4g} mm inside it",
             f"a roller in every {'gap' if engaged_every == 1 else f'{engaged_every}. gap'}; the strand is "
             "straight and guided: no wrap, and the second sprocket has no part in it",
-            f"pull {grouped(drive.pull)} N at most",
+            f"pull {grouped(pull)} N at most",
         ),
     ).with_scale()

@@ -231,9 +231,9 @@ def _tensions(
             key = load.key if load.kind == "tension_N" else "drive.slack_tension_N"
             _fault_slack(case, key, block.tension, slack)
             return None
-    most_rollers = heaviest_block(tuple(rated))
-    if most_rollers.tension <= slack:
-        _fault_slack(case, duty.rated[0].key, most_rollers.tension, slack)
+    heaviest = heaviest_block(tuple(rated))
+    if heaviest.tension <= slack:
+        _fault_slack(case, duty.rated[0].key, heaviest.tension, slack)
         return None
     idle = math.fsum(block.share for block in found if block.tension == slack)
     if idle:

@@ -13,11 +13,11 @@ RatedLoad = tuple[str, RatedDrive]
 
 
 def findings_by_load(
-    loads: Sequence[RatedLoad], service: float, exploitation: float
+    loads: Sequence[RatedLoad], service: float, application: float
 ) -> list[list[RatingFinding]]:
     """Return what the handbooks say about each load."""
     return [
-        [replace(finding, load=of) for finding in assess(rated, service, exploitation)] for of, rated in loads
+        [replace(finding, load=of) for finding in assess(rated, service, application)] for of, rated in loads
     ]
 
 

@@ -110,18 +110,18 @@ def _iso606_form(case: ChainRecord, table: SprocketTable, chain: Chain) -> Liter
         if table.form is None:
             case.take("sprocket.form", "min", "default")
         return table.form or "min"
-    least, most_rollers = (_lengths(gap_form(name, chain.roller_diameter, table.teeth)) for name in _FORMS)
+    smallest, largest = (_lengths(gap_form(name, chain.roller_diameter, table.teeth)) for name in _FORMS)
     for key, value in given.items():
-        low, high = sorted((least[key], most_rollers[key]))
+        low, high = sorted((smallest[key], largest[key]))
         if value is None:
-            case.take(f"sprocket.{key}", least[key], "minimum form of ISO 606")
+            case.take(f"sprocket.{key}", smallest[key], "minimum form of ISO 606")
         elif not low * (1.0 - _ROUNDED) <= value <= high * (1.0 + _ROUNDED):
             case.faults.add(
                 f"sprocket.{key}",
                 f"must lie between the two forms of ISO 606, {low:.7g} and {high:.7g} for rollers of "
                 f"{chain.roller_diameter:g} mm and {table.teeth} teeth (got {value:g})",
             )
-    radius, flank, angle = (given[key] or least[key] for key in BETWEEN_FORMS)
+    radius, flank, angle = (given[key] or smallest[key] for key in BETWEEN_FORMS)
     return GapForm(flank, radius, math.radians(angle))
 
 
@@ -205,7 +205,7 @@ def _drawn(case: ChainRecord, table: SprocketTable, chain: Chain, nodes: int) ->
 
 def _points(case: ChainRecord, key: str, name: str, table: SprocketTable) -> tuple[Vector, Vector] | None:
     """Coordinates from the file, None where there was a fault."""
-    path = case.path(key, name)
+    path = case.path(name)
     if table.points_file:
         found = read_points(path, key, case.faults)
         step = 0.0 if found is None else rounding_step(np.column_stack(found), 1.0)

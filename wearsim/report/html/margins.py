@@ -1,4 +1,4 @@
-"""How near every stop stop limit is when the life ends."""
+"""How near every stop limit is when the life ends."""
 
 from dataclasses import dataclass
 

@@ -57,7 +57,7 @@ class DrivePage:
     band: str  # the lives at the ends of the band, and where that comes from
     percentiles: list[tuple[str, str]]  # names and hours of P10, P50 and P90, where they are known
     findings: list[tuple[str, str]]  # the rest of the answer
-    margins: list[Margin]  # of every stop stop limit
+    margins: list[Margin]  # of every stop limit
     # rating_head, ratings: the table of what the handbooks allow; without rows where they say
     # nothing
     rating_head: list[str]

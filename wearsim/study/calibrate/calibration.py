@@ -28,7 +28,7 @@ class FittedCoefficient:
 
     key: str  # of the case
     value: float  # fitted, and in the case
-    given: float  # fitted, and in the case
+    in_case: float  # fitted, and in the case
     interval: ConfidenceInterval  # by the profile of the likelihood
 
 

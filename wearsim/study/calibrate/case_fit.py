@@ -297,7 +297,7 @@ class CaseFit:
             parts.append(PartLife(name, self._last(teeth=True), life, interval.mapped(self.time.running)))
         if self.parameters.chain:
             (joints,) = (value for value in values if value.key == JOINT)
-            whole = self.chain_hours * joints.given
+            whole = self.chain_hours * joints.in_case
             hours, interval = self._last(teeth=False), joints.interval.inverse(whole)
             life = self.time.running(whole / joints.value)
             parts.append(PartLife("chain", hours, life, interval.mapped(self.time.running)))

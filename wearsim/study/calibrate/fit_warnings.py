@@ -115,7 +115,7 @@ def _outside_bands(case: Case, values: Sequence[FittedCoefficient]) -> Iterator[
     for one in values:
         if one.key in parts:
             part, of = parts[one.key]
-            yield from band_warning(one.value / one.given, case.drive.wear_band(part, case.wear), of)
+            yield from band_warning(one.value / one.in_case, case.drive.wear_band(part, case.wear), of)
 
 
 def warnings_of_readings(observations: Sequence[Observation], state: PredictedState) -> Iterator[str]:
@@ -144,11 +144,11 @@ def _beside(one: Observation, state: PredictedState) -> WearReading:
 
 
 def _identifiability(values: Sequence[FittedCoefficient], correlation: Vector) -> Iterator[str]:
-    report_progress = set()
+    inseparable = set()
     for (i, one), (j, other) in combinations(enumerate(values), 2):
         alike = abs(correlation[i, j])
         if alike > _TOGETHER and _loose(one) and _loose(other):
-            report_progress |= {one.key, other.key}
+            inseparable |= {one.key, other.key}
             ways = "of their ratio" if correlation[i, j] > 0.0 else "of their product"
             yield (
                 f"the data cannot tell {one.key} and {other.key} apart (correlation "
@@ -158,7 +158,7 @@ def _identifiability(values: Sequence[FittedCoefficient], correlation: Vector) -
     # The unit of a coefficient goes with the exponent, and with that its size.
     judged = values[1:] if any(value.key == EXPONENT for value in values) else values
     for value in judged:
-        if _loose(value) and value.key not in report_progress:
+        if _loose(value) and value.key not in inseparable:
             yield (
                 f"the data hardly determine {value.key}: measure it apart, or leave it as it is in the case"
             )

@@ -39,7 +39,7 @@ def calibration_text(found: Calibration) -> str:
         (
             "Fitted",
             f"{value.key} = {value.value:.4g}   ({share}: {_ends(value.interval, _digits)}), "
-            f"{value.value / value.given:.3g} times the case's",
+            f"{value.value / value.in_case:.3g} times the case's",
         )
         for value in found.values
     ]
@@ -140,7 +140,7 @@ def _value(one: FittedCoefficient) -> Mapping[str, Any]:
     return {
         "key": one.key,
         "value": one.value,
-        "given": one.given,
+        "given": one.in_case,
         "low": known["low"],
         "high": known["high"],
     }

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 @overrides
 @common_options
 def optimise(
-    case: Path, evaluations: int, seed: int, as_json: bool, place: StudyOptions, settings: tuple[str, ...]
+    case: Path, evaluations: int, seed: int, as_json: bool, options: StudyOptions, settings: tuple[str, ...]
 ) -> int:
     """Print the best designs of CASE (.toml) among those that its table [optimise] allows.
 
@@ -48,12 +48,12 @@ def optimise(
 
     study = load_optimise(case, settings, evaluations, seed)
     check_library(study)
-    report_progress = _note(study)
-    if place.dry_run:
-        _show_plan(study, place, report_progress)
+    identity = _identity(study)
+    if options.dry_run:
+        _show_plan(study, options, identity)
         return 0
     text = f"optimising {study.case.title}"
-    with in_batches(study.given, place, report_progress, text, evaluations + 1) as run:
+    with in_batches(study.unchanged, options, identity, text, evaluations + 1) as run:
         outcome = best_designs(study, run)
     from wearsim.study.optimise.sheet import (
         optimise_json,
@@ -63,21 +63,21 @@ def optimise(
         save_optimise,
     )
 
-    if place.out is not None:
-        save_candidates(outcome, place.out)
+    if options.out is not None:
+        save_candidates(outcome, options.out)
     check_feasible(study, outcome.candidates)
     if as_json:
         print_json(optimise_json(outcome), case, optimise_warnings(outcome))
     else:
         show(optimise_text(outcome))
-    if place.out is not None:
-        save_optimise(outcome, place.out)
-        warn(f"written to {place.out}")
+    if options.out is not None:
+        save_optimise(outcome, options.out)
+        warn(f"written to {options.out}")
     return 0
 
 
-def _note(study: "OptimiseStudy") -> dict[str, Any]:
-    """What the manifest tells; the number of designs is none of it: more of them go on."""
+def _identity(study: "OptimiseStudy") -> dict[str, Any]:
+    """What makes a study the same one; the number of designs is none of it: more of them go on."""
     return {
         "study": "optimise",
         "case": study.case.name,
@@ -86,17 +86,17 @@ def _note(study: "OptimiseStudy") -> dict[str, Any]:
     }
 
 
-def _show_plan(study: "OptimiseStudy", place: StudyOptions, report_progress: Mapping[str, Any]) -> None:
+def _show_plan(study: "OptimiseStudy", options: StudyOptions, identity: Mapping[str, Any]) -> None:
     from wearsim.runner.store import check_store
 
-    place.workers()
-    if place.out is not None:
-        check_store(place.out, study.given, report_progress, place.force)
+    options.workers()
+    if options.out is not None:
+        check_store(options.out, study.unchanged, identity, options.force)
     points = study.space.start(4, study.seed, study.values)
-    seconds, count = timed(study.design([study.space.row(point) for point in points]))
+    seconds, count = timed(study.design([study.space.values(point) for point in points]))
     click.echo(f"designs      {study.evaluations} at most, beside the case as given")
     click.echo(
         f"time         at least {seconds * study.evaluations:.3g} s in one thread, from {count} designs"
     )
-    if place.out is not None:
-        click.echo(f"files        in {place.out / 'shards'}, and tables beside it")
+    if options.out is not None:
+        click.echo(f"files        in {options.out / 'shards'}, and tables beside it")

@@ -18,7 +18,7 @@ def save_designs(folder: Path, heads: Mapping[str, str], cases: Design) -> None:
     try:
         own = {path.name: path for path in own_designs(folder)}
         _check_free(folder, heads.keys() - own.keys())
-        placed = {name: _place(folder, name, cases.files[name]) for name in _named(cases)}
+        placed = {name: _write_apart(folder, name, cases.files[name]) for name in _named(cases)}
         for name in own.keys() - heads.keys():
             own[name].unlink()
     except OSError as error:
@@ -52,7 +52,7 @@ def _named(cases: Design) -> list[str]:
     return sorted(found & cases.files.keys())
 
 
-def _place(folder: Path, name: str, text: str) -> str:
+def _write_apart(folder: Path, name: str, text: str) -> str:
     """Write a file, under another name where a different one has its own, and return the name."""
     data = text.encode("utf-8", "surrogateescape")
     place = folder / name

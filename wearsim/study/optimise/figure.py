@@ -54,9 +54,9 @@ def _convergence(outcome: OptimiseOutcome) -> Figure:
             color="tab:red",
             label="best so far",
         )
-        if not outcome.given.error:
+        if not outcome.unchanged.error:
             panel.axhline(
-                outcome.given.measures[name],
+                outcome.unchanged.measures[name],
                 color="black",
                 linestyle="--",
                 linewidth=1.0,
@@ -77,8 +77,8 @@ def _front(outcome: OptimiseOutcome) -> Figure:
         ("feasible design", _feasible(outcome), {"color": "0.7", "s": 10}),
         ("front", outcome.front, {"color": "tab:red", "s": 22}),
     ]
-    if not outcome.given.error:
-        shown.append(("case as given", [outcome.given], {"color": "black", "marker": "x", "s": 60}))
+    if not outcome.unchanged.error:
+        shown.append(("case as given", [outcome.unchanged], {"color": "black", "marker": "x", "s": 60}))
     for panel, (across, up) in zip(panels, pairs, strict=True):
         for label, designs, style in shown:
             x = [one.measures[across] for one in designs]

@@ -34,15 +34,15 @@ def proposals(
     largest radius and margin there is also a point with each parameter in turn as it is: designs
     that fail have no measures, so that a model may lead into them.
     """
-    middle, free = study.space.place(best.values), np.flatnonzero(~study.space.whole)
+    middle, free = study.space.point(best.values), np.flatnonzero(~study.space.whole)
     if middle is None or not free.size or best.error:
         return []
     near = _alike(study, tried, best)
-    requested = [(radius, margin, -1) for radius in radii for margin in margins]
-    requested += [(max(radii), max(margins), kept) for kept in range(free.size if free.size > 1 else 0)]
-    models = {radius: _model(study, near, middle[free], free, radius) for radius in radii}
+    wanted = [(radius, margin, -1) for radius in radii for margin in margins]
+    wanted += [(max(radii), max(margins), kept) for kept in range(free.size if free.size > 1 else 0)]
+    models = {radius: _model(near, middle[free], free, radius) for radius in radii}
     found = []
-    for radius, margin, kept in requested:
+    for radius, margin, kept in wanted:
         model = models[radius]
         if model is not None:
             place = middle.copy()
@@ -56,16 +56,14 @@ def _alike(study: OptimiseStudy, tried: Sequence[Candidate], best: Candidate) ->
     lists = np.flatnonzero(study.space.whole)
     found = []
     for one in tried:
-        place = study.space.place(one.values)
+        place = study.space.point(one.values)
         if place is None or one.error or any(one.values[at] != best.values[at] for at in lists):
             continue
         found.append((place, np.log([one.measures[name] for name in study.measures])))
     return found
 
 
-def _model(
-    study: OptimiseStudy, near: list[tuple[Vector, Vector]], middle: Vector, free: Places, radius: float
-) -> Vector | None:
+def _model(near: list[tuple[Vector, Vector]], middle: Vector, free: Places, radius: float) -> Vector | None:
     """Coefficients of each measure, shape (terms, measures)."""
     offsets = np.array([(place[free] - middle) / radius for place, _ in near])
     logs = np.array([measures for _, measures in near])

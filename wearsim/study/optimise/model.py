@@ -28,7 +28,7 @@ class OptimiseStudy:
     """What is asked of a case."""
 
     case: Case  # as it is given
-    given: Design  # the case as the only one, without [optimise]
+    unchanged: Design  # the case as the only one, without [optimise]
     space: SearchSpace  # what may change
     values: tuple[Any, ...]  # of the parameters in the case, None where it has none
     objectives: tuple[str, ...]  # what is sought
@@ -43,7 +43,7 @@ class OptimiseStudy:
 
     def design(self, rows: Sequence[tuple[Any, ...]]) -> Design:
         """Return the cases of some designs."""
-        return replace(self.given, keys=self.space.keys, rows=tuple(rows))
+        return replace(self.unchanged, keys=self.space.keys, rows=tuple(rows))
 
     def assumptions(self, cases: Sequence[Case | DriveCase]) -> tuple[str, ...]:
         """Return what is taken for granted of designs."""
@@ -108,7 +108,7 @@ def _with_files(document: Document, space: SearchSpace) -> tuple[Design, SearchS
         parameter.key: parameter.choices for parameter in space.parameters if parameter.key in NAMES_FILE
     }
     faults = [
-        Fault(f"must name files that can be read, but {name!r} cannot", _place(key), place)
+        Fault(f"must name files that can be read, but {name!r} cannot", _quoted(key), place)
         for key, names in named.items()
         for name in names
         if not _is_readable(document.folder / name)
@@ -122,7 +122,7 @@ def _with_files(document: Document, space: SearchSpace) -> tuple[Design, SearchS
         bare = tuple(name for name in column if name is not None)
         if not all_differ(bare):
             text = "every file once, but one is given twice: remove it"
-            raise CaseError([Fault(text, _place(parameter.key), place)])
+            raise CaseError([Fault(text, _quoted(parameter.key), place)])
         parameters.append(replace(parameter, choices=bare) if bare else parameter)
     return given, SearchSpace(tuple(parameters) or space.parameters)
 
@@ -135,7 +135,7 @@ def _is_readable(path: Path) -> bool:
         return False
 
 
-def _place(key: str) -> str:
+def _quoted(key: str) -> str:
     return f'optimise.parameters."{key}"'
 
 

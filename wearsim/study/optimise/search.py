@@ -54,7 +54,7 @@ def best_designs(study: OptimiseStudy, run: Run) -> OptimiseOutcome:
     trials = Trials(study, run)
     settled = search(study, trials)
     tried = tuple(trials.found.values())
-    return OptimiseOutcome(study, trials.given, tried, tuple(front(tried, study.objectives)), settled)
+    return OptimiseOutcome(study, trials.unchanged, tried, tuple(front(tried, study.objectives)), settled)
 
 
 def check_library(study: OptimiseStudy) -> None:
@@ -74,7 +74,7 @@ def _start(study: OptimiseStudy, trials: Trials, size: int) -> Vector:
     count = size
     while True:
         points = study.space.start(count, study.seed, study.values)
-        tried = trials.at([study.space.row(point) for point in points])
+        tried = trials.at([study.space.values(point) for point in points])
         if any(one is not None and not one.error for one in tried) or trials.left <= 0:
             break
         if count > 16 * study.evaluations:
@@ -97,7 +97,7 @@ def _evolve(study: OptimiseStudy, trials: Trials, points: Vector) -> None:
     ends = np.array([parameter.high if parameter.choices else 1.0 for parameter in study.space.parameters])
 
     def costs(places: Vector) -> Vector:
-        rows = [study.space.row(place) for place in (places.T / ends)]
+        rows = [study.space.values(place) for place in (places.T / ends)]
         return np.array([_cost(study, one) for one in trials.at(rows)])
 
     def enough(intermediate_result: Any) -> bool:
@@ -141,11 +141,11 @@ def _poll(study: OptimiseStudy, trials: Trials) -> bool:
             if before - _cost(study, best) < _GAIN:
                 return True
             step, before = _FIRST_STEP, _cost(study, best)
-        middle = study.space.place(best.values)
+        middle = study.space.point(best.values)
         assert middle is not None
         places = proposals(study, list(trials.found.values()), best, (_TRUSTED, 4.0 * step), _MARGINS)
         places += _around(middle, free, step, rng) + _neighbours(study, middle)
-        tried = trials.at([study.space.row(place) for place in places])
+        tried = trials.at([study.space.values(place) for place in places])
         ahead = min(tried, key=lambda one: _cost(study, one))
         if ahead is not None and _cost(study, ahead) < _cost(study, best):
             best, step = ahead, 1.5 * step

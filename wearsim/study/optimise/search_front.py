@@ -83,16 +83,16 @@ def refine_front(study: OptimiseStudy, trials: Trials, size: int) -> None:
         chosen = _spread([one for one in best if one.number not in done], size)
         places = []
         for one in chosen:
-            place, own = _by_model(study, tried, one), study.space.place(one.values)
+            place, own = _by_model(study, tried, one), study.space.point(one.values)
             done.add(one.number)
             if place is not None and own is not None:
                 places.append((place, bool(np.abs(place - own).max() < _NEAR * _TRUSTED)))
-        found = trials.at([study.space.row(place) for place, _ in places])
+        found = trials.at([study.space.values(place) for place, _ in places])
         # From the edge of what a model is trusted in it goes on.
         done |= {one.number for one, (_, near) in zip(found, places, strict=True) if one is not None and near}
         if not places:
             moved = [_moved(study, one, step, rng) for one in _spread(best, size)]
-            trials.at([study.space.row(place) for place in moved])
+            trials.at([study.space.values(place) for place in moved])
             step = max(0.9 * step, _LAST_STEP)
         idle = idle + 1 if trials.left == before else 0
 
@@ -119,7 +119,7 @@ def _by_model(study: OptimiseStudy, tried: Sequence[Candidate], one: Candidate) 
 
 def _moved(study: OptimiseStudy, one: Candidate, step: float, rng: np.random.Generator) -> Vector:
     """A point near a design, some values of lists drawn anew."""
-    place, whole = study.space.place(one.values), study.space.whole
+    place, whole = study.space.point(one.values), study.space.whole
     assert place is not None
     moved = np.clip(place + step * rng.standard_normal(place.size), 0.0, 1.0)
     jump = whole & (rng.random(place.size) < _JUMP)
@@ -147,7 +147,7 @@ def _params(study: OptimiseStudy, point: Vector) -> list[float | int]:
 
 def _row(study: OptimiseStudy, params: list[float | int]) -> tuple[Any, ...]:
     pairs = zip(study.space.parameters, params, strict=True)
-    return study.space.row([at / parameter.high if parameter.choices else at for parameter, at in pairs])
+    return study.space.values([at / parameter.high if parameter.choices else at for parameter, at in pairs])
 
 
 def _values(study: OptimiseStudy, candidate: Candidate | None) -> list[float]:

@@ -108,21 +108,21 @@ class SearchSpace:
             if key.startswith("stop.")
         )
 
-    def row(self, place: Sequence[float] | Vector) -> tuple[Any, ...]:
+    def values(self, point: Sequence[float] | Vector) -> tuple[Any, ...]:
         """Return the values at a point of the unit cube."""
         return tuple(
-            parameter.value(float(part)) for parameter, part in zip(self.parameters, place, strict=True)
+            parameter.value(float(part)) for parameter, part in zip(self.parameters, point, strict=True)
         )
 
-    def place(self, row: Sequence[Any]) -> Vector | None:
+    def point(self, values: Sequence[Any]) -> Vector | None:
         """Return the point of the unit cube at which values lie."""
-        found = [parameter.part(value) for parameter, value in zip(self.parameters, row, strict=True)]
+        found = [parameter.part(value) for parameter, value in zip(self.parameters, values, strict=True)]
         return None if None in found else np.array(found, dtype=float)
 
-    def start(self, count: int, seed: int, given: Sequence[Any]) -> Vector:
+    def start(self, count: int, seed: int, values: Sequence[Any]) -> Vector:
         """Return points to start from."""
         points = unit_samples(len(self.parameters), count, seed, "sobol")
-        own = self.place(given)
+        own = self.point(values)
         if own is not None:
             points[0] = own
         return points

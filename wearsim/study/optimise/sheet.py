@@ -10,7 +10,7 @@ import pandas as pd
 from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
-from wearsim.report.text_lines import defaults_by_kind
+from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.optimise.design_files import save_designs
 from wearsim.study.optimise.trials import (
@@ -80,15 +80,15 @@ def optimise_warnings(outcome: OptimiseOutcome) -> tuple[str, ...]:
             "lives beyond run.horizon_hours count as lives up to it, and which of them is longest is not "
             "known: raise it"
         )
-    if not outcome.given.feasible:
-        why = "fails" if outcome.given.error else "breaks limits"
+    if not outcome.unchanged.feasible:
+        why = "fails" if outcome.unchanged.error else "breaks limits"
         found.append(f"the case as given {why}: what the best design gains has no measure")
     else:
         found += [
             f"the case as given has a better {name} than every design that was tried: it lies outside the "
             "parameters, or more trials are needed"
             for name in study.objectives
-            if outcome.given.cost(name) < min(one.cost(name) for one in outcome.front) - _SAME
+            if outcome.unchanged.cost(name) < min(one.cost(name) for one in outcome.front) - _SAME
         ]
     if not outcome.settled:
         found.append(
@@ -100,15 +100,12 @@ def optimise_warnings(outcome: OptimiseOutcome) -> tuple[str, ...]:
 
 def _of_designs(outcome: OptimiseOutcome) -> list[str]:
     """Warnings of the best designs, those that differ in their numbers only as one."""
-    report_progress = defaults_by_kind(
+    counts = counts_by_kind(
         f"design {_name(number, outcome)}: {text}"
         for number, one in enumerate(outcome.front, 1)
         for text in filter(None, one.warnings.split("\n"))
     )
-    return [
-        first if count == 1 else f"{first} (and of {count - 1} more designs)"
-        for first, count in report_progress
-    ]
+    return [first if count == 1 else f"{first} (and of {count - 1} more designs)" for first, count in counts]
 
 
 def optimise_text(outcome: OptimiseOutcome) -> str:
@@ -136,7 +133,7 @@ def _table(outcome: OptimiseOutcome) -> list[str]:
     limits = limit_names(study)
     head = ["design", *study.space.keys, *study.measures, *(f"to {name}" for name in limits)]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    shown = [("as given", outcome.given)]
+    shown = [("as given", outcome.unchanged)]
     shown += [(_name(number, outcome), one) for number, one in enumerate(outcome.front[:_MAX_SHOWN], 1)]
     for name, one in shown:
         cells = [name, *(_shown(value) for value in one.values)]
@@ -170,13 +167,13 @@ def _measure(one: Candidate, name: str) -> str:
 
 def _gains(outcome: OptimiseOutcome) -> list[str]:
     """What the best designs gain against the case as given, where that runs."""
-    if outcome.given.error:
+    if outcome.unchanged.error:
         return []
     lines = []
     for name in outcome.study.objectives:
         best = min(outcome.front, key=lambda one, name=name: one.cost(name))  # type: ignore[misc]
-        change = 100.0 * (best.measures[name] / outcome.given.measures[name] - 1.0)
-        values = f"{_measure(outcome.given, name)} -> {_measure(best, name)}"
+        change = 100.0 * (best.measures[name] / outcome.unchanged.measures[name] - 1.0)
+        values = f"{_measure(outcome.unchanged, name)} -> {_measure(best, name)}"
         lines.append(f"{name:<20} {values} ({change:+.3g} % against the case as given)")
     return lines
 
@@ -193,7 +190,7 @@ def optimise_json(outcome: OptimiseOutcome) -> dict[str, Any]:
         "evaluations": len(outcome.candidates),
         "infeasible": len(failed),
         "commonest_reason": commonest_reason(study, failed),
-        "given": _plain(outcome, outcome.given),
+        "given": _plain(outcome, outcome.unchanged),
         "designs": [_plain(outcome, one) for one in outcome.front],
         "assumptions": list(study.assumptions(outcome.cases)),
         "warnings": list(optimise_warnings(outcome)),
@@ -216,7 +213,7 @@ def _plain(outcome: OptimiseOutcome, one: Candidate) -> dict[str, Any]:
 
 def save_candidates(outcome: OptimiseOutcome, folder: Path) -> None:
     """Write the table of all designs that were tried into the folder of a study."""
-    tried = candidates_table(outcome, (outcome.given, *outcome.candidates))
+    tried = candidates_table(outcome, (outcome.unchanged, *outcome.candidates))
     save_files(folder, {"candidates.csv": tried.to_csv(index=False)})
 
 

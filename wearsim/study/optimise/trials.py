@@ -11,7 +11,7 @@ from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase, single_cases
 from wearsim.errors import StudyError, WearsimError
 from wearsim.input.schema.study_tables import MeasureLimit
-from wearsim.report.text_lines import defaults_by_kind
+from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.design import Design
 from wearsim.runner.shard import loaded_cases
 from wearsim.simulation import new_peak_pressure as single_peak_pressure
@@ -67,7 +67,7 @@ class OptimiseOutcome:
     """What came of a search."""
 
     study: OptimiseStudy  # what was asked
-    given: Candidate  # the case as it is
+    unchanged: Candidate  # the case as it is
     candidates: tuple[Candidate, ...]  # what was tried, in order
     # the best design, or those than which none is better in all objectives; none where no design is
     # feasible
@@ -87,7 +87,7 @@ class Trials:
     def __init__(self, study: OptimiseStudy, run: Run) -> None:
         self.study, self.run = study, run
         self.found: dict[tuple[Any, ...], Candidate] = {}
-        (self.given,) = self._tried(study.given, [study.values], 0)
+        (self.unchanged,) = self._tried(study.unchanged, [study.values], 0)
 
     @property
     def left(self) -> int:
@@ -203,7 +203,7 @@ def check_feasible(study: OptimiseStudy, candidates: Sequence[Candidate]) -> Non
 
 def commonest_reason(study: OptimiseStudy, candidates: Sequence[Candidate]) -> str:
     """Return why most designs that are not feasible are not."""
-    reasons = defaults_by_kind(text for candidate in candidates for text in _reasons(study, candidate))
+    reasons = counts_by_kind(text for candidate in candidates for text in _reasons(study, candidate))
     return f"{reasons[0][1]} of them by {reasons[0][0]}" if reasons else ""
 
 

@@ -131,10 +131,10 @@ TEETH, JOINTS = "the wear coefficient of the case", "the joints' wear coefficien
 """What `band_warning` tells of."""
 
 
-def band_warning(factor: float, band: WearBand, of: str) -> Iterator[str]:
+def band_warning(factor: float, band: WearBand, coefficient: str) -> Iterator[str]:
     """Say where readings ask for a coefficient outside of the band of the case."""
     if not band.low <= factor <= band.high:
         yield (
-            f"the readings ask for {factor:.3g} times {of}, outside its band of {band.low:.3g} to "
+            f"the readings ask for {factor:.3g} times {coefficient}, outside its band of {band.low:.3g} to "
             f"{band.high:.3g}: check the readings and the load"
         )

@@ -45,7 +45,7 @@ def sensitivity(
     trajectories: int,
     seed: int,
     as_json: bool,
-    place: StudyOptions,
+    options: StudyOptions,
     settings: tuple[str, ...],
 ) -> int:
     """Print which keys of CASE (.toml) its life depends on, and what would double it.
@@ -61,8 +61,8 @@ def sensitivity(
 
     study = load_sensitivity(case, settings, samples, trajectories, seed)
     scattered = study.scattered
-    report_progress = {"study": "sensitivity", "case": scattered.case.name, "seed": seed}
-    table = run(study.design, place, report_progress, f"sampling {scattered.case.title}")
+    identity = {"study": "sensitivity", "case": scattered.case.name, "seed": seed}
+    table = run(study.design, options, identity, f"sampling {scattered.case.title}")
     if table is None:
         return 0
     found = effects(study, table)
@@ -82,7 +82,7 @@ def sensitivity(
         print_json(sensitivity_json(answer), case, answer.warnings)
     else:
         show(sensitivity_text(answer))
-    if place.out is not None:
-        save_sensitivity(answer, table, place.out)
-        warn(f"written to {place.out}")
+    if options.out is not None:
+        save_sensitivity(answer, table, options.out)
+        warn(f"written to {options.out}")
     return 0

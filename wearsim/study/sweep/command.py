@@ -16,7 +16,7 @@ from wearsim.command.study_run import exit_code, run
 @study_options
 @overrides
 @common_options
-def sweep(study: Path, as_json: bool, place: StudyOptions, settings: tuple[str, ...]) -> int:
+def sweep(study: Path, as_json: bool, options: StudyOptions, settings: tuple[str, ...]) -> int:
     """Run the case of STUDY (.toml) over values of its keys and print the lives.
 
     STUDY names the case and gives values in [grid] (every combination), [[zip]] (keys that
@@ -28,15 +28,15 @@ def sweep(study: Path, as_json: bool, place: StudyOptions, settings: tuple[str, 
     from wearsim.study.sweep.model import load_sweep
 
     loaded = load_sweep(study, settings)
-    report_progress = {"study": "sweep", "title": loaded.title, "case": loaded.design.name}
-    table = run(loaded.design, place, report_progress, f"sweeping {loaded.title}")
+    identity = {"study": "sweep", "title": loaded.title, "case": loaded.design.name}
+    table = run(loaded.design, options, identity, f"sweeping {loaded.title}")
     if table is None:
         return 0
     from wearsim.study.sweep.sheet import save_sweep, sweep_json, sweep_text
 
     for line in sweep_json(loaded, table) if as_json else [sweep_text(loaded, table)]:
         click.echo(line)
-    if place.out is not None:
-        save_sweep(loaded, table, place.out)
-        warn(f"written to {place.out}")
+    if options.out is not None:
+        save_sweep(loaded, table, options.out)
+        warn(f"written to {options.out}")
     return exit_code(table)

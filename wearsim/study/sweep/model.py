@@ -55,15 +55,15 @@ def load_sweep(source: CaseSource, overrides: Sequence[str] = (), case: GivenInp
     ]
     check_command(document.data, document.faults.file, "life")
     title = {"title": tables.title}
-    report_progress = retitled({**document.data, **title}, {**written.data, **title})["title"]
+    retold = retitled({**document.data, **title}, {**written.data, **title})["title"]
     cases = design(document, keys, rows, place)
     _check_values(given, document, cases, axes)
-    return Sweep(report_progress, tuple(axis.keys for axis in axes), cases)
+    return Sweep(retold, tuple(axis.keys for axis in axes), cases)
 
 
 @dataclass(frozen=True)
 class _Axis:
-    place: str  # table of the sweep that it stands in
+    table: str  # table of the sweep that it stands in
     keys: tuple[str, ...]  # keys of the case that go together
     rows: list[tuple[Any, ...]]  # their values
 
@@ -82,7 +82,7 @@ def _check_values(given: Document, document: Document, cases: Design, axes: Sequ
                 tables = replaced(tables, key.split("."), value)
             for key, message in _wrong(tables, model):
                 if any(_holds(swept, key) for swept in axis.keys):
-                    given.faults.add(f"{axis.place}.{key}", message)
+                    given.faults.add(f"{axis.table}.{key}", message)
     given.faults.check()
 
 

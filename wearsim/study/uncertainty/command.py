@@ -61,7 +61,7 @@ def uncertainty(
     require_hours: float | None,
     cross_check: bool,
     as_json: bool,
-    place: StudyOptions,
+    options: StudyOptions,
     settings: tuple[str, ...],
 ) -> int:
     """Print the life that 9 of 10, half and 1 of 10 drives like CASE (.toml) outlive.
@@ -78,13 +78,8 @@ def uncertainty(
     if cross_check:
         check_installed(("reliability",), "crosscheck", "--cross-check")
     study = load_uncertainty(case, settings, samples, seed, method, require_hours)
-    report_progress = {
-        "study": "uncertainty",
-        "case": study.scattered.case.name,
-        "method": method,
-        "seed": seed,
-    }
-    table = run(study.design, place, report_progress, f"sampling {study.scattered.case.title}")
+    identity = {"study": "uncertainty", "case": study.scattered.case.name, "method": method, "seed": seed}
+    table = run(study.design, options, identity, f"sampling {study.scattered.case.title}")
     if table is None:
         return 0
     from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer, uncertainty_warnings
@@ -97,9 +92,9 @@ def uncertainty(
         print_json(uncertainty_json(answer), case, uncertainty_warnings(answer))
     else:
         show(uncertainty_text(answer))
-    if place.out is not None:
-        save_uncertainty(answer, place.out)
-        warn(f"written to {place.out}")
+    if options.out is not None:
+        save_uncertainty(answer, options.out)
+        warn(f"written to {options.out}")
     missed = _missed(answer, require_hours)
     return code or missed
 

@@ -24,7 +24,7 @@ TOLERANCE = 0.01
 class BoundedValue:
     """A parameter between its bounds."""
 
-    value: float  # estimate of greatest likelihood
+    value: float  # estimate of maximum likelihood
     low: float  # ends of its 95 % interval by the curvature of the likelihood; nan where not known
     high: float  # ends of its 95 % interval by the curvature of the likelihood; nan where not known
 
@@ -81,7 +81,7 @@ def _repeated(name: str, failures: Vector, suspensions: Vector) -> tuple[CrossFi
             failures=failures,
             right_censored=suspensions,
             CI=CONFIDENCE,
-            optimizer="best",  # of all it has: the usual one may stop short of the greatest likelihood
+            optimizer="best",  # of all it has: the usual one may stop short of the maximum likelihood
             show_probability_plot=False,
             print_results=False,
         )

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from wearsim.geometry.profile_points import Vector
-from wearsim.report.text_lines import defaults_by_kind
+from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.shard import life_columns
 from wearsim.study.uncertainty.cross_check import CrossCheck
 from wearsim.study.uncertainty.model import UncertaintyStudy
@@ -111,8 +111,8 @@ def uncertainty_warnings(answer: UncertaintyAnswer) -> list[str]:
 
 def _of_samples(warnings: "pd.Series[str]") -> list[str]:
     """Warnings of the samples, those that differ in their numbers only as one."""
-    greatest = defaults_by_kind(text for joined in warnings for text in filter(None, joined.split("\n")))
-    found = [f"{count} of {len(warnings)} samples, such as: {text}" for text, count in greatest[:_MAX_KINDS]]
-    if len(greatest) > _MAX_KINDS:
-        found.append(f"and {len(greatest) - _MAX_KINDS} other kinds of warnings, see cases.csv")
+    counts = counts_by_kind(text for joined in warnings for text in filter(None, joined.split("\n")))
+    found = [f"{count} of {len(warnings)} samples, such as: {text}" for text, count in counts[:_MAX_KINDS]]
+    if len(counts) > _MAX_KINDS:
+        found.append(f"and {len(counts) - _MAX_KINDS} other kinds of warnings, see cases.csv")
     return found
