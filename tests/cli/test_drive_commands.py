@@ -182,8 +182,17 @@ def test_all_drives_are_checked_before_one_runs(cli, drive, tmp_path):
     done = cli("life", drive, wrong, "--out", tmp_path / "out")
     assert done.code == 2 and "wrong.toml:10: sprocket.2.teeth" in done.err
     assert not (tmp_path / "out").exists()
-    done = cli("life", drive, "cases/16b-20t-oiled.toml")
-    assert done.code == 2 and "run them one after the other" in done.err
+
+
+def test_a_drive_and_one_sprocket_live_side_by_side(cli, drive, tmp_path):
+    done = cli("life", drive, "cases/16b-20t-oiled.toml", "--json", "--out", tmp_path / "out", *SHORT)
+    assert done.code == 0, done.err
+    both = [json.loads(line) for line in done.out.splitlines()]
+    assert "sprockets" in both[0] and both[1]["title"] == "Evolute sprocket, 16B chain, 20 teeth"
+    assert (tmp_path / "out" / drive.stem / "drive.json").is_file()
+    assert (tmp_path / "out" / "16b-20t-oiled" / "result.json").is_file()
+    done = cli("compare", drive, "cases/16b-20t-oiled.toml", *SHORT)
+    assert done.code == 2 and "compare them apart" in done.err
 
 
 def test_drives_are_compared_part_by_part(cli, drive, tmp_path):
@@ -199,7 +208,6 @@ def test_drives_are_compared_part_by_part(cli, drive, tmp_path):
     assert "| > 20 h | driver > 20 h, roll > 20 h |" in first
     assert "within all of them" in first and "OVERLOADED" in second
     assert done.out.strip() in (out / "summary.md").read_text()
-    assert cli("compare", drive, other, "--xlsx", tmp_path / "c.xlsx").code == 2
 
 
 def test_check_rates_a_drive(cli, drive):
@@ -210,14 +218,37 @@ def test_check_rates_a_drive(cli, drive):
     assert any("outside a rating: plate fatigue" in text for text in found["warnings"])
 
 
-@pytest.mark.parametrize("command", ["sensitivity", "optimise"])
-def test_what_is_not_for_drives_says_what_is(cli, drive, command):
-    done = cli(command, drive)
-    assert done.code == 2
-    assert f"{drive}:4: sprocket: must be one [sprocket] here" in done.err
-    assert "is for wearsim check, life, compare" in done.err
-    assert "maintain, lubricate, remaining, calibrate, sweep" in done.err
-    assert "the case of one sprocket, [sprocket] with drive.mate_teeth" in done.err
+def test_what_matters_on_a_drive(cli, drive):
+    """Of joints the rate alone: the index of the only key that scatters is 1, twice the life half of it."""
+    pytest.importorskip("SALib", reason="SALib is not installed")
+    scattered = drive.read_text() + (
+        '[uncertainty]\n"wear.specific_wear_rate_mm2_per_N" = {sigma_ln = 0, distribution = "lognormal"}\n'
+    )
+    drive.write_text(scattered)
+    done = cli("sensitivity", drive, "--samples", "8", "--trajectories", "4", "--json")
+    assert done.code == 0, done.err
+    found = {one["key"]: one for one in json.loads(done.out)["keys"]}
+    joints = found["joint.specific_wear_rate_mm2_per_N"]
+    assert joints["total_index"] == pytest.approx(1.0, abs=0.05)
+    assert joints["value_for_double_life"] == pytest.approx(0.5e-8, rel=0.05)
+
+
+def test_the_best_drive_is_a_drive(cli, drive, tmp_path):
+    """The chain ends first: of two pulls the smaller one lives longer, by the law of its joints."""
+    pytest.importorskip("scipy")
+    drive.write_text(
+        drive.read_text()
+        + '[optimise]\nobjectives = ["life_hours"]\n[optimise.parameters]\n'
+        + '"sprocket.2.teeth" = {choices = [20, 25]}\n"load.power_kW" = {low = 1.0, high = 1.3}\n'
+        + "[optimise.limits]\nmass_kg = {high = 2.0}\n"
+    )
+    done = cli(
+        "optimise", drive, "--evaluations", "10", "--json", "--threads", "2", "--out", tmp_path / "best"
+    )
+    assert done.code == 0, done.err
+    best = json.loads(done.out)["designs"][0]
+    assert best["parameters"]["load.power_kW"] == pytest.approx(1.0, rel=0.02)
+    assert cli("check", tmp_path / "best" / "designs" / "01.toml").code == 0
 
 
 OILED = "[lubrication]\nlasts_hours = 100\ndry_factor = 4\n"

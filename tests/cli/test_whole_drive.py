@@ -260,7 +260,25 @@ def test_required_hours_are_those_of_every_part(cli, drive):
     assert "life of the chain" in done.err
 
 
-def test_options_of_one_sprocket_are_refused(cli, drive):
-    done = cli("life", drive, "--verify-grid")
-    assert done.code == 2
-    assert "a drive with [[sprocket]]" in done.err
+def test_grids_of_all_sprockets_are_verified(cli, drive):
+    """Each is that of the sprocket alone: the chain's wear is the same on every grid."""
+    done = cli("life", drive, "--verify-grid", "--set", "run.horizon_hours=50")
+    assert done.code == 0
+    assert [line.split()[1] for line in done.out.splitlines() if "nodes:" in line] == ["driver,", "roll,"]
+    found = json.loads(cli("life", drive, "--verify-grid", "--json", "--set", "run.horizon_hours=50").out)
+    assert {name: len(grid["nodes"]) for name, grid in found["grid"].items()} == {"driver": 3, "roll": 3}
+
+
+def test_a_key_is_solved_for_on_a_drive(cli, drive):
+    """The chain ends first and its joints wear by its pull: half the power, twice the life, slack pull apart."""
+    hours = min(lives(cli, drive).values())
+    options = ("--require-hours", str(2.0 * hours), "--solve-for")
+    found = json.loads(cli("life", drive, *options, "load.power_kW", "--json").out)
+    assert found["solve_for"]["met"]
+    assert found["life_hours"] == found["solve_for"]["life_hours"] == pytest.approx(2.0 * hours, rel=0.1)
+    assert found["solve_for"]["value"] == pytest.approx(0.5 * 1.3, rel=0.1)
+    done = cli("life", drive, *options, "sprocket.2.face_width_mm", "--out", drive.parent / "solved")
+    assert done.code in (0, 4) and "sprocket.2.face_width_mm = " in done.out
+    assert (drive.parent / "solved" / "drive.json").is_file()
+    done = cli("life", drive, *options, "sprocket.3.teeth")
+    assert done.code == 2 and "it is not in the case" in done.err

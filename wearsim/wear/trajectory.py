@@ -1,5 +1,6 @@
 """A flank as it wears: what both ways of running hand back."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,7 +34,10 @@ def difference(run: Trajectory, other: Trajectory) -> float:
     if run.met is not None and other.met is not None:
         return abs(float(other.cycles[-1] / run.cycles[-1]) - 1.0)
     end = min(float(run.cycles[-1]), float(other.cycles[-1]))
-    return abs(depth_at(other, end) / depth_at(run, end) - 1.0)
+    worn, others = depth_at(run, end), depth_at(other, end)
+    if not worn > 0.0:  # a short run on a coarse grid wears nothing off
+        return 0.0 if others == worn else math.inf
+    return abs(others / worn - 1.0)
 
 
 def depth_at(run: Trajectory, cycles: float) -> float:
