@@ -1,8 +1,8 @@
 """How often the stated numerical error of a life holds: random drives against finer references.
 
-``python docs/stated_error.py`` (half an hour on two cores, nearly all of it for the wraps)
+``python research/stated_error.py`` (half an hour on two cores, nearly all of it for the wraps)
 writes reports/reference/stated_error.csv, with the reference lives, and docs/stated_error.svg.
-``python docs/stated_error.py strand pair`` renews these kinds only; ``python docs/stated_error.py
+``python research/stated_error.py strand pair`` renews these kinds only; ``python research/stated_error.py
 again`` (some minutes) finds the lives and stated errors anew and keeps the references.
 
 Drives are drawn by kind, ``SEED`` and number. References share neither grids nor estimates with
