@@ -27,14 +27,7 @@ extensions = [
     "root_pages",
     "thumbnails",
 ]
-exclude_patterns = [
-    "_build",
-    "tooth_forms_head.md",
-    "validation_head.md",
-    "measured_head.md",
-    "laws_head.md",
-    "practice_head.md",
-]
+exclude_patterns = ["_build", "validation_head.md", "measured_head.md", "laws_head.md", "practice_head.md"]
 html_theme = "furo"
 html_title = f"wearsim {release}"
 html_math_renderer = "mathml"

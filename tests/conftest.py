@@ -11,7 +11,7 @@ import pytest
 
 from wearsim.input.faults import known_keys
 
-DOCS = Path(__file__).parents[1] / "docs"
+DOCS, RESEARCH = (Path(__file__).parents[1] / name for name in ("docs", "research"))
 PAGES = {
     "validated": "validation_page",
     "measured": "measured_page",
@@ -76,25 +76,21 @@ def write_page(terminalreporter, exitstatus, file, kind, writer):
 
 
 @pytest.fixture(scope="session")
-def stated_error():
-    """docs/stated_error.py as a module: random drives and the references of their lives."""
-    sys.path.insert(0, str(DOCS))
-    try:
-        return importlib.import_module("stated_error")
-    finally:
-        sys.path.remove(str(DOCS))
-
-
-@pytest.fixture(scope="session")
-def lubricants():
-    """Return the importer of the modules in docs/ that forecast what was read of lubricants."""
+def research():
+    """Return the importer of the scripts in research/."""
 
     def module(name):
         with pytest.MonkeyPatch.context() as patch:
-            patch.syspath_prepend(str(DOCS))
+            patch.syspath_prepend(str(RESEARCH))
             return importlib.import_module(name)
 
     return module
+
+
+@pytest.fixture(scope="session")
+def stated_error(research):
+    """research/stated_error.py as a module: random drives and the references of their lives."""
+    return research("stated_error")
 
 
 @pytest.fixture(scope="session")

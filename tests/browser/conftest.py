@@ -6,6 +6,7 @@ from importlib.util import find_spec
 import pytest
 
 import wearsim
+from tests import drives
 
 from .ui_server import Server
 
@@ -36,14 +37,7 @@ WRAP = {
     "sprocket": {"teeth": 20, "profile": "iso606", "nodes": 101},
     "mechanism": {"kind": "wrap", "phases": 2},
 }
-GEARS = {
-    "format_version": 1,
-    "title": "Gears",
-    "gear": {"pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30, "nodes": 61},
-    "load": {"torque_N_m": 100, "speed_rpm": 1450},
-    "wear": {"specific_wear_rate_mm2_per_N": 1e-11},
-    "stop": {"critical_depth_mm": 0.02},
-}
+GEARS = drives.changed(drives.GEARS, {"title": "Gears"})
 
 if find_spec("pytest_playwright") is None:
 

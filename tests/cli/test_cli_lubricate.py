@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 import wearsim
+from tests.drives import LIGHT_WRAP, changed
 from wearsim.cli.main import wearsim_command
 from wearsim.quantities import grouped
 from wearsim.simulation import case_clock
@@ -325,16 +326,13 @@ def spread(*factors: float) -> float:
     return math.exp(math.hypot(*map(math.log, factors)))
 
 
-WRAP: dict[str, Any] = {
-    "format_version": 1,
-    "chain": {"designation": "08B-1"},
-    "sprocket": {"teeth": 13, "profile": "iso606", "nodes": 61},
-    "drive": {"mate_teeth": 20, "links": 60, "slack_tension_N": 30},
-    "mechanism": {"phases": 2},
-    "load": {"tension_N": 800, "speed_rpm": 200},
-    "run": {"life_tolerance": 0.1},
-    "lubrication": {"lubricant": "manual", "lasts_hours": 30.0, "interval_hours": 20.0},
-}
+WRAP = changed(
+    LIGHT_WRAP,
+    {
+        "run.life_tolerance": 0.1,
+        "lubrication": {"lubricant": "manual", "lasts_hours": 30.0, "interval_hours": 20.0},
+    },
+)
 
 
 @pytest.mark.parametrize(

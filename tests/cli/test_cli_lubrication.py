@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 import wearsim
+from tests.drives import LIGHT_WRAP, changed
 from wearsim.catalogue.catalogues import environments, lubricants
 from wearsim.errors import CaseError
 from wearsim.quantities import grouped
@@ -28,15 +29,7 @@ STRAND: dict[str, Any] = {
         "contamination_factor": 1.5,
     },
 }
-WRAP: dict[str, Any] = {
-    "format_version": 1,
-    "chain": {"designation": "08B-1"},
-    "sprocket": {"teeth": 13, "profile": "iso606", "nodes": 61},
-    "drive": {"mate_teeth": 20, "links": 60, "slack_tension_N": 30},
-    "mechanism": {"phases": 2},
-    "load": {"tension_N": 800, "speed_rpm": 200},
-    "run": {"life_tolerance": 0.1},
-}
+WRAP = changed(LIGHT_WRAP, {"run.life_tolerance": 0.1})
 
 
 def hours(tables: dict[str, Any], *settings: str) -> float:

@@ -50,7 +50,7 @@ def test_folders_of_tests_are_those_there_are():
 
 
 def test_files_that_are_named_exist():
-    named = re.findall(r"`((?:tests|docs|wearsim|reports|cases|\.ci)/[\w./-]*\w)`", PAGE)
+    named = re.findall(r"`((?:tests|docs|wearsim|reports|research|cases|\.ci)/[\w./-]*\w)`", PAGE)
     assert len(named) > 15
     assert [name for name in named if not place_of(name).exists()] == []
 

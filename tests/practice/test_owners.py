@@ -7,25 +7,10 @@ bicycle is one of 50 to 17 teeth at 200 W and 28 km/h for all: the load is part 
 import pytest
 
 import wearsim
+from tests.drives import ROAD_BICYCLE, changed
 
 OWNERS = [(1609, 1.04), (9656, 0.13), (2414, 0.35), (2012, 1.04), (36200, 0.625), (2750, 0.75)]
-BICYCLE = {
-    "format_version": 1,
-    "chain": {
-        "pitch_mm": 12.7,
-        "roller_diameter_mm": 7.9,
-        "inner_width_mm": 2.38,
-        "pin_diameter_mm": 3.6,
-        "bearing_area_mm2": 14,
-        "mass_kg_per_m": 0.27,
-    },
-    "sprocket": {"role": "driven", "teeth": 17, "profile": "iso606", "nodes": 51},
-    "drive": {"mate_teeth": 50, "links": 110},
-    "load": {"power_kW": 0.2, "speed_rpm": 260},
-    "wear": {"condition": "bicycle, wet drip"},
-    "stop": {"elongation_percent": 2},
-    "service": {"km_per_hour": 28},
-}
+BICYCLE = changed(ROAD_BICYCLE, {"stop.elongation_percent": 2})
 
 
 def factors(case: wearsim.Case) -> list[float]:

@@ -4,26 +4,19 @@ Expected: the same case with a tenth of the tolerance, on the same points and on
 many (twice where that would be more than 801).
 """
 
-import importlib.util
-from pathlib import Path
+from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
 import pytest
 
-SOURCE = Path(__file__).parents[2] / "docs" / "random_lives.py"
-
 pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def lives() -> ModuleType:
-    """Return docs/random_lives.py as a module."""
-    found = importlib.util.spec_from_file_location("random_lives", SOURCE)
-    assert found is not None and found.loader is not None
-    module = importlib.util.module_from_spec(found)
-    found.loader.exec_module(module)
-    return module
+def lives(research: Callable[[str], ModuleType]) -> ModuleType:
+    """Return research/random_lives.py as a module."""
+    return research("random_lives")
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,6 @@
 """All drives of reports/reference/stated_error.csv again, held against the references in it.
 
-Those lives are extrapolated from far finer grids and steps by docs/stated_error.py, which shares
+Those lives are extrapolated from far finer grids and steps by research/stated_error.py, which shares
 neither with what is judged.
 """
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import wearsim
+from tests.drives import FAST_WRAP, changed
 from wearsim.contact.resting_engagement import ChainWear
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import CaseError
@@ -24,26 +25,21 @@ from wearsim.wear.resting_bodies import StartState
 
 CASES = Path(__file__).parents[2] / "cases"
 
-DRIVE = {
-    "format_version": 1,
-    "chain": {"designation": "ANSI 40"},
-    "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 51},
-    "drive": {"mate_teeth": 57, "links": 120},
-    "mechanism": {"kind": "wrap", "phases": 2},
-    "joint": {"specific_wear_rate_mm2_per_N": 1.5e-8},
-    "load": {"power_kW": 4.6, "speed_rpm": 1000},
-    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
-    "stop": {"critical_depth_mm": 0.04},
-    "run": {"life_tolerance": 0.1},
-    "maintenance": {
-        "replace_at_percent": [1.0, 3.0],
-        "turn_sprocket": True,
-        "chain_price": 40.0,
-        "sprocket_price": 60.0,
-        "downtime_hours": 2.0,
-        "downtime_cost_per_hour": 30.0,
+DRIVE = changed(
+    FAST_WRAP,
+    {
+        "stop.critical_depth_mm": 0.04,
+        "run.life_tolerance": 0.1,
+        "maintenance": {
+            "replace_at_percent": [1.0, 3.0],
+            "turn_sprocket": True,
+            "chain_price": 40.0,
+            "sprocket_price": 60.0,
+            "downtime_hours": 2.0,
+            "downtime_cost_per_hour": 30.0,
+        },
     },
-}
+)
 
 
 def case(**tables):

@@ -12,6 +12,7 @@ from click.testing import CliRunner
 from pydantic import BaseModel
 
 import wearsim
+from tests.drives import STRAND, changed
 from wearsim.cad.wheel_drawing import wheel_points
 from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.cli.main import wearsim_command
@@ -48,14 +49,7 @@ from wearsim.study.select.sheet import drive_columns
 from wearsim.study.sensitivity.model import KeyEffect
 from wearsim.study.sensitivity.sheet import SensitivityAnswer, sensitivity_table
 
-CASE = {
-    "format_version": 1,
-    "chain": {"designation": "16B-1"},
-    "sprocket": {"teeth": 20, "profile": "evolute", "evolute_offset_mm": 5.6, "nodes": 51},
-    "load": {"power_kW": 3, "speed_rpm": 100},
-    "wear": {"condition": "hardened, oiled"},
-    "stop": {"critical_depth_mm": 0.01},
-}
+CASE = changed(STRAND, {"sprocket.evolute_offset_mm": 5.6, "stop.critical_depth_mm": 0.01})
 
 CALCULATION_CASES = sorted((Path(__file__).parents[2] / "cases" / "sizing").glob("*.toml"))
 OTHER_ENDINGS = {"h": "hours", "km/h": "km_per_hour", "t/h": "tonnes_per_hour", "ml/h": "ml_per_hour"}

@@ -12,6 +12,7 @@ import pytest
 import shapely
 
 import wearsim
+from tests import drives
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
 from wearsim.files import file_names
 from wearsim.geometry.scene import Circle, Label, Scene, line
@@ -30,25 +31,11 @@ from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.result import LimitState, WearResult
 
-STRAND = {
-    "format_version": 1,
-    "chain": {"designation": "16B-1"},
-    "sprocket": {"teeth": 20, "profile": "evolute", "nodes": 51},
-    "load": {"power_kW": 3, "speed_rpm": 100},
-    "wear": {"condition": "hardened, oiled"},
-    "run": {"horizon_hours": 100, "life_tolerance": 0.1},
-}
+STRAND = drives.changed(drives.STRAND, {"run": {"horizon_hours": 100, "life_tolerance": 0.1}})
 WRAP = {
     **STRAND,
     "sprocket": {"teeth": 20, "profile": "iso606", "nodes": 601},
     "mechanism": {"kind": "wrap", "phases": 2},
-}
-GEARS = {
-    "format_version": 1,
-    "gear": {"pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30, "nodes": 61},
-    "load": {"torque_N_m": 100, "speed_rpm": 1450},
-    "wear": {"specific_wear_rate_mm2_per_N": 1e-11},
-    "stop": {"critical_depth_mm": 0.02},
 }
 
 
@@ -99,7 +86,7 @@ def test_the_roller_of_a_strand_touches_the_drawn_flank():
 
 
 def test_circles_of_gears_are_to_scale():
-    scene = wearsim.load_case(GEARS).drive.scene(1)
+    scene = wearsim.load_case(drives.GEARS).drive.scene(1)
     assert [circle.radius for circle in drawn(scene, "pitch")] == [28.5, 91.5]
     (contact,) = drawn(scene, "contact")
     first, *_, last = contact.vertices
@@ -230,7 +217,7 @@ def test_jumping_reads_as_safe_or_not(goes_on):
 
 
 def test_a_life_that_the_wheel_ends_is_told():
-    case = wearsim.load_case(GEARS, ["wear.wheel_wear_ratio=20"])
+    case = wearsim.load_case(drives.GEARS, ["wear.wheel_wear_ratio=20"])
     result = wearsim.simulate(case)
     assert result.stop == "wheel_critical_depth_mm"
     assert ending(result) == "until 0.02 mm is worn off the wheel"
@@ -249,7 +236,7 @@ def test_pages_are_the_same_for_the_same_run_and_small(strand, tmp_path, single_
 
 @pytest.fixture(scope="module")
 def gears():
-    return wearsim.simulate(wearsim.load_case(GEARS))
+    return wearsim.simulate(wearsim.load_case(drives.GEARS))
 
 
 @pytest.fixture(scope="module")

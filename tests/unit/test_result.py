@@ -11,20 +11,20 @@ import pandas as pd
 import pytest
 
 import wearsim
+from tests import drives
 from wearsim.drive.load_case import load_case
 from wearsim.errors import LimitNotReachedError, OutputError
 from wearsim.report.flank_view import profile_table
 from wearsim.result import Life, LowerBound, WearResult
 
-STRAND = {
-    "format_version": 1,
-    "title": 'Title with "quotes", ü and | signs',
-    "chain": {"designation": "16B-1"},
-    "sprocket": {"teeth": 20, "profile": "evolute", "evolute_offset_mm": 5.6, "nodes": 51},
-    "load": {"power_kW": 3, "speed_rpm": 100},
-    "wear": {"condition": "hardened, oiled"},
-    "stop": {"critical_depth_mm": 0.05},
-}
+STRAND = drives.changed(
+    drives.STRAND,
+    {
+        "title": 'Title with "quotes", ü and | signs',
+        "sprocket.evolute_offset_mm": 5.6,
+        "stop.critical_depth_mm": 0.05,
+    },
+)
 
 
 def mapping(kind, folder):

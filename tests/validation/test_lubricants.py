@@ -41,13 +41,13 @@ WITHIN_90, WITHIN_50 = (0.80, 0.97), (0.35, 0.65)
 
 
 @pytest.fixture(scope="module")
-def rig(lubricants):
-    return lubricants("lubricant_rig")
+def rig(research):
+    return research("lubricant_rig")
 
 
 @pytest.fixture(scope="module")
-def forecast(lubricants):
-    return lubricants("forecast_lubricants")
+def forecast(research):
+    return research("forecast_lubricants")
 
 
 @pytest.fixture(scope="module")
@@ -102,7 +102,7 @@ def test_growth_of_a_clean_block_after_dust_by_hand(rig):
     assert grown[2] == pytest.approx(31.0 * (0.01 + 0.02 * (1 / 2 + 1 / 4 + 1 / 8) / 3))
 
 
-def test_an_application_of_the_case_lasts_by_the_closed_form(rig, lubricants):
+def test_an_application_of_the_case_lasts_by_the_closed_form(rig, research):
     """0.05 of the allowance in 1000 km up to 2000 km, then 1.5: the rest of 0.9 takes 600 km."""
     inputs = {
         **wearsim.load_case(rig.CASE, list(rig.RIG)).inputs,
@@ -115,7 +115,7 @@ def test_an_application_of_the_case_lasts_by_the_closed_form(rig, lubricants):
     inputs["lubrication"] = {"lasts_km": 2000.0, "dry_factor": 30.0}
     run = wearsim.simulate(wearsim.load_case(inputs))
     assert rig.KM_PER_HOUR * run.parts["chain"].hours_run == pytest.approx(2600.0, rel=1e-9)
-    assert lubricants("lubricant_ages").allowance(2000.0, 5e-5, 1.5e-3) == pytest.approx(2600.0)
+    assert research("lubricant_ages").allowance(2000.0, 5e-5, 1.5e-3) == pytest.approx(2600.0)
 
 
 LEFT_OUT = {

@@ -12,6 +12,7 @@ import pytest
 import tomlkit
 
 import wearsim
+from tests.drives import FAST_WRAP, changed
 from wearsim.errors import CaseError
 from wearsim.geometry.profile_points import Profile
 from wearsim.study.calibrate import history_interpolation as blend
@@ -31,18 +32,7 @@ STRAND = {
     "stop": {"critical_depth_mm": 0.1},
 }
 POWER = {**STRAND, "wear": {"law": "power", "coefficient": 1.2e-9, "pressure_exponent": 0.7}}
-WRAP = {
-    "format_version": 1,
-    "chain": {"designation": "ANSI 40"},
-    "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 51},
-    "drive": {"mate_teeth": 57, "links": 120},
-    "mechanism": {"kind": "wrap", "phases": 2},
-    "joint": {"specific_wear_rate_mm2_per_N": 1.5e-8},
-    "load": {"power_kW": 4.6, "speed_rpm": 1000},
-    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
-    "stop": {"critical_depth_mm": 0.04},
-    "run": {"life_tolerance": 0.1},
-}
+WRAP = changed(FAST_WRAP, {"stop.critical_depth_mm": 0.04, "run.life_tolerance": 0.1})
 GEARS = {
     "format_version": 1,
     "gear": {"module_mm": 3.0, "pinion_teeth": 20, "wheel_teeth": 36, "face_width_mm": 20.0},

@@ -10,22 +10,12 @@ import pytest
 from scipy.stats import norm, truncnorm
 
 import wearsim
+from tests.drives import FAST_WRAP, changed
 from wearsim.study.remaining.chain_readings import side_of_mark
 from wearsim.study.remaining.chain_state import chain_state
 from wearsim.study.remaining.posterior import LEVELS, FactorPrior, factor_posterior
 
-WRAP = {
-    "format_version": 1,
-    "chain": {"designation": "ANSI 40"},
-    "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 51},
-    "drive": {"mate_teeth": 57, "links": 120},
-    "mechanism": {"kind": "wrap", "phases": 2},
-    "joint": {"specific_wear_rate_mm2_per_N": 1.5e-8},
-    "load": {"power_kW": 4.6, "speed_rpm": 1000},
-    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
-    "stop": {"elongation_percent": 3},
-    "service": {"km_per_hour": 30, "hours_per_day": 8},
-}
+WRAP = changed(FAST_WRAP, {"stop.elongation_percent": 3, "service": {"km_per_hour": 30, "hours_per_day": 8}})
 CELLS = "quantity,value,links,result,error"
 BAND = 3.0
 """Factor to either side, the default band: 90 % of a log-normal distribution."""

@@ -14,6 +14,7 @@ import shapely
 from scipy.integrate import quad
 
 import wearsim
+from tests.drives import LIGHT_WRAP, changed
 from wearsim.errors import CaseError, ContactError
 from wearsim.report.answer import answer
 from wearsim.result import WearResult
@@ -23,17 +24,15 @@ from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
 
 STRAND = Path(__file__).parents[2] / "cases" / "16b-20t-oiled.toml"
 FEW = ["sprocket.nodes=61", "stop.critical_depth_mm=0.05"]
-WRAP: dict[str, Any] = {
-    "format_version": 1,
-    "chain": {"designation": "08B-1"},
-    "sprocket": {"teeth": 13, "profile": "iso606", "nodes": 101},
-    "drive": {"mate_teeth": 20, "links": 60, "slack_tension_N": 30},
-    "mechanism": {"phases": 2},
-    "joint": {"specific_wear_rate_mm2_per_N": 1e-9, "pitch": "uniform"},
-    "load": {"tension_N": 800, "speed_rpm": 200},
-    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
-    "stop": {"critical_depth_mm": 0.02},
-}
+WRAP = changed(
+    LIGHT_WRAP,
+    {
+        "sprocket.nodes": 101,
+        "joint": {"specific_wear_rate_mm2_per_N": 1e-9, "pitch": "uniform"},
+        "wear.specific_wear_rate_mm2_per_N": 1e-9,
+        "stop.critical_depth_mm": 0.02,
+    },
+)
 
 
 STRETCHING = (

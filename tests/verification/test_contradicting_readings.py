@@ -7,28 +7,12 @@ import pytest
 from scipy.stats import norm
 
 import wearsim
+from tests.drives import ROAD_BICYCLE, changed
 from wearsim.study.remaining.chain_readings import ChainReading, side_of_mark
 from wearsim.study.remaining.contradictions import CHAIN, WearReading, contradictions
 from wearsim.study.remaining.posterior import LEVELS, FactorPrior, factor_posterior
 
-ROAD = {
-    "format_version": 1,
-    "title": "Road bicycle, 50 to 17 teeth",
-    "chain": {
-        "pitch_mm": 12.7,
-        "roller_diameter_mm": 7.9,
-        "inner_width_mm": 2.38,
-        "pin_diameter_mm": 3.6,
-        "bearing_area_mm2": 14,
-        "mass_kg_per_m": 0.27,
-    },
-    "sprocket": {"role": "driven", "teeth": 17, "profile": "iso606", "nodes": 51},
-    "drive": {"mate_teeth": 50, "links": 110},
-    "load": {"power_kW": 0.2, "speed_rpm": 260},
-    "wear": {"condition": "bicycle, wet drip"},
-    "stop": {"elongation_percent": 1.5},
-    "service": {"km_per_hour": 28},
-}
+ROAD = changed(ROAD_BICYCLE, {"title": "Road bicycle, 50 to 17 teeth", "stop.elongation_percent": 1.5})
 TAKE_OFF = {
     "format_version": 1,
     "title": "Take-off roll",

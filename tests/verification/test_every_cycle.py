@@ -9,14 +9,12 @@ import numpy as np
 import pytest
 
 import wearsim
+from tests import drives
 
-GEARS = {
-    "format_version": 1,
-    "gear": {"pinion_teeth": 19, "wheel_teeth": 61, "module_mm": 3, "face_width_mm": 30, "nodes": 101},
-    "load": {"torque_N_m": 100, "speed_rpm": 1450},
-    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
-    "stop": {"critical_depth_mm": 0.005},
-}
+GEARS = drives.changed(
+    drives.GEARS,
+    {"gear.nodes": 101, "wear.specific_wear_rate_mm2_per_N": 1e-9, "stop.critical_depth_mm": 0.005},
+)
 
 WRAP = {
     "format_version": 1,

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import wearsim
+from tests.drives import FAST_WRAP, changed
 from wearsim.errors import CaseError
 from wearsim.result import Life, LowerBound
 from wearsim.study.remaining.model import DEPTH, ELONGATION, OVER_PINS, SingleReading, remaining_life
@@ -18,18 +19,7 @@ STRAND = {
     "wear": {"specific_wear_rate_mm2_per_N": 1e-10},
     "stop": {"critical_depth_mm": 0.05},
 }
-WRAP = {
-    "format_version": 1,
-    "chain": {"designation": "ANSI 40"},
-    "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 51},
-    "drive": {"mate_teeth": 57, "links": 120},
-    "mechanism": {"kind": "wrap", "phases": 2},
-    "joint": {"specific_wear_rate_mm2_per_N": 1.5e-8},
-    "load": {"power_kW": 4.6, "speed_rpm": 1000},
-    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
-    "stop": {"critical_depth_mm": 0.04},
-    "run": {"life_tolerance": 0.1},
-}
+WRAP = changed(FAST_WRAP, {"stop.critical_depth_mm": 0.04, "run.life_tolerance": 0.1})
 
 
 def case(base, **tables):

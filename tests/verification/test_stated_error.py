@@ -1,7 +1,7 @@
 """The stated numerical error of a life is a bound.
 
 Expected lives: reports/reference/stated_error.csv, extrapolated from far finer even grids (and of
-wraps from far smaller steps) by docs/stated_error.py. These drives are among the eight on which the
+wraps from far smaller steps) by research/stated_error.py. These drives are among the eight on which the
 error stated before was too small by most, without a warning; all of them are judged by tests/slow.
 """
 

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import wearsim
+from tests.drives import LIGHT_WRAP, changed
 from wearsim.catalogue.catalogues import wear_laws
 from wearsim.errors import CaseError, ConvergenceError
 from wearsim.kernels.severity import t_gamma_rate
@@ -32,18 +33,16 @@ GEARS = Path(__file__).parents[2] / "cases" / "fzg-c14-16t-mild.toml"
 ROLLER, SPEED, RPM = 6.035, 700.0, 100.0
 MODULUS = 2.1e5 / (2.0 * 0.91)
 RELATIVE = 1.0 / ROLLER
-WRAP: dict[str, Any] = {
-    "format_version": 1,
-    "chain": {"designation": "08B-1"},
-    "sprocket": {"teeth": 13, "profile": "iso606", "nodes": 101},
-    "drive": {"mate_teeth": 20, "links": 60, "slack_tension_N": 30},
-    "mechanism": {"phases": 2},
-    "joint": {"specific_wear_rate_mm2_per_N": 1e-9, "pitch": "uniform"},
-    "load": {"tension_N": 800, "speed_rpm": 200},
-    "wear": {"specific_wear_rate_mm2_per_N": 1e-9},
-    "stop": {"critical_depth_mm": 0.02, "elongation_percent": 3},
-    "run": {"life_tolerance": 0.1},
-}
+WRAP = changed(
+    LIGHT_WRAP,
+    {
+        "sprocket.nodes": 101,
+        "joint": {"specific_wear_rate_mm2_per_N": 1e-9, "pitch": "uniform"},
+        "wear.specific_wear_rate_mm2_per_N": 1e-9,
+        "stop": {"critical_depth_mm": 0.02, "elongation_percent": 3},
+        "run.life_tolerance": 0.1,
+    },
+)
 
 
 def sigma(load: float) -> float:

@@ -1,6 +1,6 @@
 """Is ``life_tolerance`` met: the distribution over random feasible cases.
 
-Run from a checkout with ``python docs/life_tolerance.py`` (some minutes); it writes
+Run from a checkout with ``python research/life_tolerance.py`` (some minutes); it writes
 reports/reference/life_tolerance.md.
 """
 
@@ -19,7 +19,7 @@ WORST = 5
 
 HEAD = f"""# Is `life_tolerance` met
 
-Made by `python docs/life_tolerance.py`, with {{versions}}.
+Made by `python research/life_tolerance.py`, with {{versions}}.
 
 {CASES} random feasible cases, seed {SEED}: evolute flanks on a strand, the same from points, and tables
 of load and sliding; all laws, some with a hardened layer, running-in and further limits; 61 to 401

@@ -1,6 +1,6 @@
 """Which tooth form lives longest: the worked drives with every form, and on both pictures.
 
-Run from a checkout with ``python docs/tooth_forms.py`` (some minutes); it writes
+Run from a checkout with ``python research/tooth_forms.py`` (some minutes); it writes
 reports/reference/tooth_forms.md.
 """
 
@@ -119,8 +119,8 @@ def main() -> None:
     jobs = [(letter, form) for letter in sys.argv[1:] or DRIVES for form in FORMS]
     with ProcessPoolExecutor() as pool:
         found = list(pool.map(one, jobs))
-    text = (ROOT / "docs" / "tooth_forms_head.md").read_text("utf-8")
-    lines = [text.rstrip(), "", f"Made on {date.today()} with `python docs/tooth_forms.py`.", ""]
+    text = Path(__file__).with_name("tooth_forms_head.md").read_text("utf-8")
+    lines = [text.rstrip(), "", f"Made on {date.today()} with `python research/tooth_forms.py`.", ""]
     head = (
         "tooth form",
         "sprocket life, h",

@@ -1,6 +1,6 @@
 """Lives of random feasible cases, with tighter steps and on a finer grid besides.
 
-For ``docs/life_tolerance.py``, which makes a table of them. Chains around a sprocket are left
+For ``research/life_tolerance.py``, which makes a table of them. Chains around a sprocket are left
 out: one of them takes seconds.
 """
 

@@ -1,6 +1,6 @@
 """Forecast of the readings withheld from the data of 67 lubricants, and how such forecasts did on the others.
 
-Run from a checkout with ``python docs/forecast_lubricants.py`` (about two minutes); it writes
+Run from a checkout with ``python research/forecast_lubricants.py`` (about two minutes); it writes
 reports/reference/forecast_lubricants.csv and forecast_lubricants.md. Same numbers every time.
 """
 
@@ -16,7 +16,7 @@ import pandas as pd
 from lubricant_rig import DATA, KM_PER_HOUR, blocks_read, coefficient_of_rate, kinds, mid_quantiles
 
 REPORTS = Path(__file__).parent.parent / "reports" / "reference"
-HEAD = Path(__file__).parents[1] / "reports" / "reference" / "forecast_lubricants_head.md"
+HEAD = Path(__file__).with_name("forecast_lubricants_head.md")
 PARTS = (0.05, 0.25, 0.5, 0.75, 0.95)
 READ = [f"block_{number}" for number in range(1, 7)]
 JUMPS, ALLOWANCES = ([f"{road}_{what}_km" for road in ages.ROADS] for what in ("jump", "allowance"))
