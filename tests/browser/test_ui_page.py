@@ -178,7 +178,7 @@ def test_a_file_that_changed_on_disk_is_not_replaced_unasked(watched, serve):
     server = serve(STRAND)
     page = opened(watched, server)
     other = STRAND.replace("Test drive", "Of another editor")
-    for answer in ("Cancel", "Load it, and lose what is on this page", "Replace it"):
+    for answer in ("Cancel", "Load it and discard the changes on this page", "Replace it"):
         value = {"Cancel": "4", "Replace it": "6"}.get(answer, "5")
         field(page, "load.power_kW").fill(value)
         server.path.write_text(other)

@@ -108,4 +108,4 @@ def test_every_command_has_help(cli, command):
 def test_no_arguments_show_the_help(cli):
     done = cli()
     assert done.code in (0, 2)
-    assert "How long will this sprocket live?" in done.out + done.err
+    assert "How long will this sprocket last?" in done.out + done.err

@@ -257,7 +257,7 @@ def test_answers_of_a_terminal_are_options(asked, cli):
     done = asked(*(EXAMPLE[f"--{name}"] for name in order))
     assert done.exit_code == 0
     assert done.output.endswith(cli("init", *words(EXAMPLE)).out)
-    for words_of_it in ("Speed of the driver in rpm [150]: ", "Running hours a day [8]: ", "Power in kW ["):
+    for words_of_it in ("Speed of the driver in rpm [150]: ", "Running hours per day [8]: ", "Power in kW ["):
         assert words_of_it in done.output
 
 
@@ -275,7 +275,7 @@ def test_a_terminal_is_asked_again_for_what_cannot_be(asked, tmp_path):
     assert done.exit_code == 0
     assert "Error: no such chain in the catalogue; did you mean '12B'" in done.output
     assert "--centre: drive layout: the sprockets must not overlap" in done.output
-    assert done.output.count("Distance of the axes in mm") == 2
+    assert done.output.count("Centre distance in mm") == 2
     assert load_drive(path).driver.case.inputs["drive"]["centre_distance_mm"] == 900.0
 
 

@@ -110,7 +110,7 @@ def test_inputs_tell_given_from_default(cli, drive, tmp_path):
     assert row("sprocket.contact_end_mm")[1] == "default: 0.16 pitch"
     assert row("run.life_tolerance")[1] == "default"
     assert row("material.roller.poissons_ratio")[1] == "default: steel"
-    assert row("sprocket.teeth")[2] == "number of gaps of the sprocket; of teeth of a gear"
+    assert row("sprocket.teeth")[2] == "number of teeth"
     for source in ("chain 16B-1", "wear condition &#39;hardened, oiled&#39;", "material steel"):
         assert f"<dt>{source}</dt><dd>" in page
 

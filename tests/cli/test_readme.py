@@ -44,7 +44,8 @@ def lines_of_shell(text):
 
 
 def commands():
-    return [line for line in lines_of_shell(README) if line.startswith(".venv/bin/wearsim ")]
+    """Those of README.md, then those of output.md."""
+    return [line for line in lines_of_shell(README + OUTPUT) if re.match(r"(\.venv/bin/)?wearsim ", line)]
 
 
 def run(line, folder):
@@ -84,7 +85,7 @@ def documented(text, heading):
 
 @pytest.fixture(scope="module")
 def checkout(tmp_path_factory):
-    """A copy of what the commands of README.md read, after all of them have run in turn."""
+    """A copy of what the commands read, after all of them have run in turn."""
     folder = tmp_path_factory.mktemp("checkout")
     shutil.copytree(ROOT / "cases", folder / "cases")
     return folder, {line: run_here(line, folder) for line in commands()}
@@ -120,13 +121,13 @@ def test_answer_is_what_the_first_set_up_line_prints():
 
 
 def test_every_command_runs(checkout):
-    assert len(commands()) >= 4
+    assert len([line for line in commands() if line.startswith(".venv/")]) == 5
     failed = {line: done.stderr for line, done in checkout[1].items() if done.returncode != 0}
     assert not failed
 
 
 def test_history_is_that_of_a_fresh_run(checkout):
-    (shown,) = (block for block in blocks(README, "text") if block.startswith("cycles,"))
+    (shown,) = (block for block in blocks(OUTPUT, "text") if block.startswith("cycles,"))
     fresh = (checkout[0] / "out" / "16b" / "history.csv").read_text(encoding="utf-8")
     shown_rows, fresh_rows = list(csv.reader(shown.splitlines())), list(csv.reader(fresh.split()))
     assert len(shown_rows) == 5
@@ -138,7 +139,7 @@ def test_history_is_that_of_a_fresh_run(checkout):
 
 
 def test_plot_is_three_lines_and_runs(checkout):
-    (code,) = blocks(README, "python")
+    (code,) = blocks(OUTPUT, "python")
     assert len(code.splitlines()) == 3
     done = subprocess.run(
         [sys.executable, "-c", code],
@@ -155,6 +156,17 @@ def test_picture_is_of_the_life_in_the_answer(result):
     picture = (ROOT / "docs" / "worn_flank.svg").read_text(encoding="utf-8")
     assert f"after {grouped(result.life.hours)} h" in picture
     assert f"{grouped(result.life.hours)} h" in README
+
+
+def test_picture_is_of_the_drive_as_it_is_checked():
+    picture = (ROOT / "docs" / "packaging_conveyor.svg").read_text(encoding="utf-8")
+    layout = json.loads(run("wearsim check packaging-conveyor --json", ROOT).stdout)["layout"]
+    written = re.findall(r"<text .*>(.+)</text>", picture)
+    assert written[:-1] == [
+        *(f"{sprocket['name']}, {sprocket['teeth']}" for sprocket in layout["sprockets"]),
+        *(f"{grouped(span['tension_N'])} N" for span in layout["spans"]),
+    ]
+    assert written[-1] == "200 mm"
 
 
 PACKAGE = Path(wearsim.__file__).parent

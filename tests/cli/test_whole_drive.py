@@ -270,7 +270,7 @@ def test_grids_of_all_sprockets_are_verified(cli, drive):
 
 
 def test_a_key_is_solved_for_on_a_drive(cli, drive):
-    """The chain ends first and its joints wear by its pull: half the power, twice the life, slack pull apart."""
+    """The chain ends first, its joints wear by its pull: half the power, twice the life."""
     hours = min(lives(cli, drive).values())
     options = ("--require-hours", str(2.0 * hours), "--solve-for")
     found = json.loads(cli("life", drive, *options, "load.power_kW", "--json").out)

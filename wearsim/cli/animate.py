@@ -16,21 +16,23 @@ _SHORTEST_S = 0.02
 """Time that a frame stays at least: readers of GIF show shorter ones longer."""
 
 
-@click.command(short_help="The flank as it wears, as a moving picture.")
+@click.command(short_help="Animation of the flank as it wears.")
 @click.argument("source", type=RunPath(path_type=Path), metavar="CASE_OR_RUN")
 @click.option(
     "--out",
     required=True,
     type=click.Path(path_type=Path, allow_dash=True),
-    help="New file: .gif, .webp or .png (animated); - is stdout.",
+    help="New file: .gif, .webp or .png (animated); - for stdout.",
 )
-@click.option("--format", "form", type=click.Choice(_FORMATS), help="Of --out; else its ending tells.")
+@click.option(
+    "--format", "form", type=click.Choice(_FORMATS), help="File format; default: from the extension of --out."
+)
 @click.option(
     "--frames",
     type=click.IntRange(2, 300),
     default=60,
     show_default=True,
-    help="Pictures, at equal steps of running time.",
+    help="Number of frames, equally spaced in running time.",
 )
 @click.option(
     "--seconds",
@@ -38,7 +40,7 @@ _SHORTEST_S = 0.02
     default=5.0,
     show_default=True,
     callback=finite,
-    help="What they take; the last one stays 2 s longer.",
+    help="Duration in seconds; the last frame stays 2 s longer.",
 )
 @click.option(
     "--width",
@@ -46,9 +48,9 @@ _SHORTEST_S = 0.02
     default=960,
     show_default=True,
     metavar="PX",
-    help="Of the picture; its letters grow with it.",
+    help="Width in pixels; text scales with it.",
 )
-@click.option("--force", is_flag=True, help="Replace the file.")
+@click.option("--force", is_flag=True, help="Replace an existing file.")
 @sprocket_option
 @overrides
 @common_options
@@ -63,11 +65,10 @@ def animate(
     sprocket: str | None,
     settings: tuple[str, ...],
 ) -> None:
-    """Show how the flank of a run (folder of life --out) or of a case (.toml, run now) wears.
+    """Animate the wear of the flank of a case (.toml, run now) or a run (folder of life --out).
 
-    The new flank is dashed, the depth of the worn one enlarged by the factor in the legend; beside
-    it the greatest depth against hours, on a wrap the elongation of the chain too. Gears show both
-    flanks.
+    The new flank is dashed; the wear depth is enlarged by the factor in the legend. Beside it: the
+    greatest depth over running time, on a wrap also the elongation of the chain. Gears show both flanks.
     """
     check_place(out, source, force)
     kind = format_of(out, form, _FORMATS, "--format")

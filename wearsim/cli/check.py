@@ -10,13 +10,13 @@ from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, load_cases, overrides
 
 
-@click.command(short_help="Is a case complete, and can it run?")
+@click.command(short_help="Check a case: keys, geometry, ratings.")
 @click.argument("cases", nargs=-1, required=True, type=CasePath(path_type=Path), metavar="CASE...")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object per case.")
 @overrides
 @common_options
 def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> None:
-    """Check each CASE (.toml): keys, files, feasible geometry, ratings; say what it assumes."""
+    """Check each CASE (.toml): keys, files, geometry and ratings; print what it assumes."""
     loaded = load_cases(cases, settings, as_json)
     from wearsim.drive.drive_case import single_cases
     from wearsim.report.check import check_json, check_text

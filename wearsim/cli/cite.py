@@ -12,7 +12,7 @@ from wearsim.command.options import common_options
     type=click.Choice(["text", "bibtex", "cff", "apa"]),
     default="text",
     show_default=True,
-    help="Plain words, BibTeX, Citation File Format or APA style.",
+    help="Format of the citation: plain text, BibTeX, Citation File Format or APA.",
 )
 @common_options
 def cite(style: str) -> None:

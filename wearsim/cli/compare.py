@@ -25,12 +25,12 @@ if TYPE_CHECKING:
     from wearsim.result import WearResult
 
 
-@click.command(short_help="Several lives side by side: tables and pictures.")
+@click.command(short_help="Compare cases: tables and pictures.")
 @click.argument("sources", nargs=-1, required=True, type=RunPath(path_type=Path), metavar="CASE_OR_RUN...")
-@click.option("--out", type=click.Path(path_type=Path), help="New folder.")
+@click.option("--out", type=click.Path(path_type=Path), help="New folder for tables and pictures.")
 @workbook_option
-@click.option("--force", is_flag=True, help="Replace what --out and --xlsx name.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
+@click.option("--force", is_flag=True, help="Replace an existing folder or workbook.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object per case.")
 @overrides
 @common_options
 def compare(
@@ -43,11 +43,11 @@ def compare(
 ) -> int:
     """Compare cases (.toml, run now) and runs (folders of life --out).
 
-    The table is printed. The folder holds it as summary.csv and summary.md, with pictures of
-    the flanks, of depth, pressure and sliding along them, and of depth against hours; the
-    workbook a sheet for each case.
+    Prints a table. --out writes it as summary.csv and summary.md, with pictures of the flanks, of
+    depth, pressure and sliding along them, and of depth over running time. The workbook has a sheet
+    for each case.
 
-    Whole drives, [[sprocket]] twice, are compared part by part: lives, what is replaced first,
+    Whole drives ([[sprocket]] twice or more) are compared part by part: lives, first replacement,
     ratings, cost.
     """
     check_workbook(out, xlsx, force)

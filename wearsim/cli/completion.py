@@ -6,7 +6,7 @@ from wearsim.command.options import common_options
 
 _VARIABLE = "_WEARSIM_COMPLETE"
 
-_HELP = """Print the completion script of SHELL: commands, options, cases, chains and keys.
+_HELP = """Print the completion script for SHELL: commands, options, cases, chains and keys.
 
 \b
 bash   wearsim completion bash > ~/.local/share/bash-completion/completions/wearsim
@@ -55,7 +55,7 @@ def _joined(words: list[str]) -> list[str]:
     return found
 
 
-@click.command(help=_HELP, short_help="The script that completes wearsim's words in a shell.")
+@click.command(help=_HELP, short_help="Shell completion for bash, zsh and fish.")
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
 @common_options
 def completion(shell: str) -> None:

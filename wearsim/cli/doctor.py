@@ -13,14 +13,13 @@ _NOT_IN_ORDER = 1
 _SELF_TEST = "hertz-arc-prescribed"
 
 
-@click.command(short_help="Is this installation in order, and what to do if not?")
-@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@click.command(short_help="Check the installation and suggest fixes.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @common_options
 def doctor(as_json: bool) -> int:
-    """Check versions, kernels, cache, folders, extras and browser, and run a life that is known.
+    """Check versions, kernels, cache, folders, extras and browser, and compute a life that is known.
 
-    The exit code is 1 where something that is needed has failed; what is only noted does not
-    count.
+    The exit code is 1 if something required has failed. Notes do not count.
     """
     from wearsim.installation import installation_checks
 

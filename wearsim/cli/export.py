@@ -23,24 +23,28 @@ _GAUGES = ("pdf", "svg", "dxf")
 _STATES: "dict[str, tuple[State, ...]]" = {"new": ("new",), "worn": ("worn",), "both": ("new", "worn")}
 
 
-@click.command(short_help="The wheel for CAD, new and worn, and a gauge of its wear limit.")
+@click.command(short_help="Sprocket or gear for CAD, new or worn; wear-limit gauge.")
 @click.argument("source", type=RunPath(path_type=Path), metavar="CASE_OR_RUN")
 @click.option(
     "--out",
     type=click.Path(path_type=Path, allow_dash=True),
-    help="New file of the wheel, - is stdout; of a whole drive a new folder for a file of each wheel.",
+    help="New file for the wheel, - for stdout; for a whole drive, a new folder with a file per wheel.",
 )
-@click.option("--format", "form", type=click.Choice(_FORMATS), help="Of --out; else its ending tells.")
 @click.option(
-    "--state", type=click.Choice(tuple(_STATES)), help="Of the wheel; else new for a case, both for a run."
+    "--format", "form", type=click.Choice(_FORMATS), help="File format; default: from the extension of --out."
+)
+@click.option(
+    "--state",
+    type=click.Choice(tuple(_STATES)),
+    help="State of the wheel; default: new for a case, both for a run.",
 )
 @click.option(
     "--template",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="New file (.pdf, .svg or .dxf) of a go/no-go gauge to print 1:1 and put in between the teeth.",
+    help="New file (.pdf, .svg or .dxf) for a go/no-go gauge of the wear limit, to print at 1:1.",
 )
-@click.option("--force", is_flag=True, help="Replace the files.")
+@click.option("--force", is_flag=True, help="Replace existing files.")
 @sprocket_option
 @overrides
 @common_options
@@ -56,11 +60,11 @@ def export(
 ) -> None:
     """Write the wheel of a case (.toml) or of a run (folder of life --out) for CAD.
 
-    DXF and SVG hold outlines on layers of their own, circles and a note; CSV the points; STEP a
-    solid (pip install 'wearsim[step]'), STL its surface. Bore, keyway and hub come from [sprocket].
-    A worn wheel of a case is worn first, until its limit. Of a whole drive without --sprocket all
-    wheels go into a folder, as DXF if no --format is given.
-    --template writes a gauge of the gap at the wear limit, with a bar to check the print.
+    DXF and SVG have the outlines on separate layers, circles and a note; CSV has the points; STEP has
+    a solid (pip install 'wearsim[step]'), STL its surface. Bore, keyway and hub come from [sprocket].
+    To draw the worn wheel of a case, wearsim first wears it to its limit. For a whole drive without
+    --sprocket, all wheels are written to a folder, as DXF by default.
+    --template draws a gauge of the gap at the wear limit, with a bar to check the print scale.
     """
     if out is None and template is None:
         raise click.UsageError("give --out FILE, --template FILE or both")

@@ -22,27 +22,27 @@ _SAFETY = {"strand": 10.0, "wrap": 20.0}
 
 @click.command(short_help="A commented case to start from.")
 @drive_options
-@click.option("--teeth", type=int, help="Teeth of one sprocket alone.  [default: 20]")
+@click.option("--teeth", type=int, help="Number of teeth of a single sprocket.  [default: 20]")
 @click.option(
     "--kind",
     type=click.Choice(["drive", "strand", "wrap"]),
-    help="A chain and both of its sprockets; or one sprocket, with a guided strand past it or a chain "
-    "around it.  [default: drive; with --teeth strand]",
+    help="Kind of case: a whole drive, or a single sprocket with a guided strand or a wrapped chain.  "
+    "[default: drive; strand with --teeth]",
 )
 @click.option(
     "--out",
     type=click.Path(path_type=Path, allow_dash=True),
     default="-",
     show_default=True,
-    help="New file; - is stdout.",
+    help="New file; - for stdout.",
 )
-@click.option("--force", is_flag=True, help="Replace the file.")
+@click.option("--force", is_flag=True, help="Replace an existing file.")
 @common_options
 def init(teeth: int | None, kind: str | None, out: Path, force: bool, **typed: str | None) -> None:
-    """Write a working case by what is known of a drive, every line explained.
+    """Write a working case from what is known of a drive, with every line explained.
 
     Power, speed, distance and hours may have a unit: --power "4 hp". On a terminal, without any of
-    these options, it asks for them one by one. --teeth and --kind are for a case of one sprocket.
+    these options, it asks for them one by one. --teeth and --kind write a case of one sprocket.
     """
     from wearsim.files import check_free, write_file
 

@@ -38,39 +38,43 @@ if TYPE_CHECKING:
     from wearsim.wear.accuracy import GridStudy
 
 
-@click.command(short_help="The life of a drive in hours.")
+@click.command(short_help="Service life in hours.")
 @click.argument("cases", nargs=-1, required=True, type=CasePath(path_type=Path), metavar="CASE...")
-@click.option("--out", type=click.Path(path_type=Path), help="New folder for result, history and flank.")
 @click.option(
-    "--parquet", is_flag=True, help="Write both tables as Parquet files too (pip install 'wearsim[parquet]')."
+    "--out", type=click.Path(path_type=Path), help="New folder for the result, its history and the flank."
+)
+@click.option(
+    "--parquet",
+    is_flag=True,
+    help="Also write both tables as Parquet files (pip install 'wearsim[parquet]').",
 )
 @workbook_option
-@click.option("--force", is_flag=True, help="Replace what --out and --xlsx name.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
+@click.option("--force", is_flag=True, help="Replace an existing folder or workbook.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object per case.")
 @click.option(
     "--require-hours",
     type=click.FloatRange(min=0.0, min_open=True),
     metavar="H",
     callback=finite,
-    help="Exit with 4 where a life is shorter; raises the horizon to at least H.",
+    help="Exit with code 4 if any life is shorter; raises the horizon to at least H.",
 )
 @click.option(
     "--solve-for",
     "key",
     metavar="TABLE.KEY",
     shell_complete=complete_key,
-    help="Find the value of this number at which the CASE lives --require-hours.",
+    help="Find the value of this key for which the life is --require-hours.",
 )
 @click.option(
     "--method",
     type=click.Choice(["advance", "per_cycle"]),
-    help="per_cycle: the source's equations 10 to 13, cycle by cycle; as --set run.method=...",
+    help="per_cycle: equations 10 to 13 of the source, cycle by cycle. Same as --set run.method=...",
 )
-@click.option("--verify-grid", is_flag=True, help="Run on half and a quarter of the nodes as well.")
+@click.option("--verify-grid", is_flag=True, help="Repeat the run with a half and a quarter of the nodes.")
 @click.option(
-    "--explain", is_flag=True, help="Print every assumption and default, and where the band is from."
+    "--explain", is_flag=True, help="Print every assumption and default, and the source of the band."
 )
-@click.option("--strict", is_flag=True, help="Exit with 4 where a case has a warning.")
+@click.option("--strict", is_flag=True, help="Exit with code 4 if a case has a warning.")
 @overrides
 @common_options
 def life(
@@ -88,14 +92,14 @@ def life(
     strict: bool,
     settings: tuple[str, ...],
 ) -> int:
-    """Print how long the parts of each CASE (.toml) live, and how sure that is.
+    """Print the service life of each CASE (.toml), and how sure it is.
 
-    A CASE is one sprocket, a pair of gears, or with [[sprocket]] twice a whole drive: chain and all
-    sprockets on one clock.
+    A CASE is one sprocket, a pair of gears, or with [[sprocket]] twice or more a whole drive: chain
+    and sprockets wear together.
 
-    With --out, DIR holds result.json, case.lock.toml, environment.json, history.csv and
-    flank.csv; for several cases, DIR/<file stem> does. A workbook holds all cases. That of a
-    whole drive holds drive.json, drive.lock.toml, and both tables of all sprockets.
+    --out writes result.json, case.lock.toml, environment.json, history.csv and flank.csv; several
+    cases get a folder each, named after their files. For a whole drive it writes drive.json,
+    drive.lock.toml, and both tables for all sprockets. A workbook holds all cases.
     """
     if method is not None:
         settings = (*settings, f"run.method={method}")

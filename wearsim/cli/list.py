@@ -67,12 +67,12 @@ _COLUMNS: dict[str, dict[str, str]] = {
 
 @click.command("list", short_help="Chains, materials, wear conditions and laws, cases, quantities.")
 @click.argument("table", type=click.Choice(tuple(_COLUMNS)))
-@click.option("--json", "as_json", is_flag=True, help="As a JSON array, with all columns.")
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON array with all columns.")
 @common_options
 def list_table(table: str, as_json: bool) -> None:
-    """Print a TABLE with the source of its numbers.
+    """Print a TABLE with the sources of its numbers.
 
-    The rows of cases are those that come with wearsim; a command takes them by their names.
+    The table of cases lists those that come with wearsim; any command accepts them by name.
     """
     rows = _rows(table)
     if as_json:

@@ -18,7 +18,7 @@ from wearsim.command.options import (
 )
 
 
-@click.command(short_help="Tension, force and place of each roller in the wrap.")
+@click.command(short_help="Link tension and tooth force along the wrap.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--elongation",
@@ -27,17 +27,17 @@ from wearsim.command.options import (
     show_default=True,
     metavar="PERCENT",
     callback=finite,
-    help="Elongation of the chain.",
+    help="Elongation of the chain, in percent.",
 )
 @click.option(
     "--phase",
     type=click.FloatRange(0.0, 1.0),
     metavar="F",
     callback=finite,
-    help="Part of a pitch gone since the first roller came in; default 1, the end of its articulation.",
+    help="Fraction of a pitch since the first roller entered; default: 1, the end of its articulation.",
 )
-@click.option("--worst", is_flag=True, help="The phase with the largest force on a tooth.")
-@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@click.option("--worst", is_flag=True, help="Use the phase with the largest tooth force.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @sprocket_option
 @overrides
 @common_options
@@ -50,9 +50,9 @@ def loads(
     sprocket: str | None,
     settings: tuple[str, ...],
 ) -> None:
-    """Print what the teeth of CASE carry; tooth 1 is at the tight end.
+    """Print the loads on the teeth of CASE; tooth 1 is at the tight end.
 
-    Of a whole drive, [[sprocket]] twice: its spans and shafts, then the teeth of every sprocket.
+    For a whole drive ([[sprocket]] twice or more): spans and shafts, then the teeth of every sprocket.
     """
     if worst and phase is not None:
         raise click.UsageError("--worst looks at all phases: give --phase or --worst, not both")

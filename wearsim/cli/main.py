@@ -17,9 +17,9 @@ from wearsim.command.colours import uses_colour
 from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error
 from wearsim.errors import WearsimError
 
-_HELP = """How long will this sprocket live?
+_HELP = """How long will this sprocket last?
 
-Start from what you know of a drive (init, select, ui), then ask for its life. CASE is a file
+Start from what you know of a drive (init, select, ui), then compute its life. CASE is a file
 (.toml), - for standard input, or the name of a shipped case (wearsim list cases).
 
 \b

@@ -10,16 +10,16 @@ from wearsim.command.options import common_options, load_cases, overrides, sproc
 from wearsim.command.single_file import check_place
 
 
-@click.command(short_help="The working flank as a CSV file of points.")
+@click.command(short_help="Points of the working flank as CSV.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--out",
     type=click.Path(path_type=Path, allow_dash=True),
     default="-",
     show_default=True,
-    help="New CSV file; - is stdout.",
+    help="New CSV file; - for stdout.",
 )
-@click.option("--force", is_flag=True, help="Replace the file.")
+@click.option("--force", is_flag=True, help="Replace an existing file.")
 @sprocket_option
 @overrides
 @common_options

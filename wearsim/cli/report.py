@@ -17,28 +17,26 @@ if TYPE_CHECKING:
     from wearsim.result import WearResult
 
 
-@click.command(short_help="Pages for a browser: answer, pictures, inputs, sources.")
+@click.command(short_help="HTML report: results, pictures, inputs, sources.")
 @click.argument("sources", nargs=-1, required=True, type=RunPath(path_type=Path), metavar="RUN_OR_CASE...")
 @click.option(
     "--out",
     required=True,
     type=click.Path(path_type=Path),
-    help="New folder; of a whole drive also a file, *.html.",
+    help="New folder; for a whole drive, also a file *.html.",
 )
-@click.option(
-    "--single-file", is_flag=True, help="Every page holds its script (about 5 MB each) and moves alone."
-)
+@click.option("--single-file", is_flag=True, help="Self-contained pages with their scripts, about 5 MB each.")
 @click.option(
     "--detail",
     type=click.Choice(["brief", "full"]),
     default="full",
     show_default=True,
-    help="brief: answer, tooth, margins, assumptions and warnings only.",
+    help="brief: only answer, tooth, margins, assumptions and warnings.",
 )
-@click.option("--project", default="", metavar="TEXT", help="On the sheet of a whole drive: what it is for.")
-@click.option("--drawing", default="", metavar="TEXT", help="On that sheet: the number of a drawing.")
-@click.option("--author", default="", metavar="TEXT", help="On that sheet: who made it.")
-@click.option("--force", is_flag=True, help="Replace the folder, or the file.")
+@click.option("--project", default="", metavar="TEXT", help="Project, printed on the sheet of a whole drive.")
+@click.option("--drawing", default="", metavar="TEXT", help="Drawing number, printed on the sheet.")
+@click.option("--author", default="", metavar="TEXT", help="Author, printed on the sheet.")
+@click.option("--force", is_flag=True, help="Replace an existing folder or file.")
 @overrides
 @common_options
 def report(
@@ -52,12 +50,12 @@ def report(
     force: bool,
     settings: tuple[str, ...],
 ) -> int:
-    """Write pages about runs (folders of life --out) and cases (.toml, run now).
+    """Write HTML pages about runs (folders of life --out) and cases (.toml, run now).
 
-    Open index.html of the folder: the page of the drive, or where there are several a page that
-    compares them and leads to theirs. The pages fetch nothing; they need wearsim[report].
+    Open index.html in the folder: the page of the drive, or, for several, a comparison that links to
+    their pages. The pages need no network. Needs wearsim[report].
 
-    A case with [[sprocket]] twice is a whole drive: one page, a calculation sheet to print on A4.
+    A case with [[sprocket]] twice or more is a whole drive: one page, a calculation sheet for A4.
     """
     from wearsim.drive.drive_case import DriveCase
     from wearsim.extras import check_installed

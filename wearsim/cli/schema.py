@@ -9,17 +9,17 @@ from wearsim.command.options import common_options
 
 
 @click.command(short_help="JSON Schema of the input file or of the result.")
-@click.option("--result", "of_result", is_flag=True, help="Of what life --json prints instead.")
+@click.option("--result", "of_result", is_flag=True, help="Schema of the output of life --json instead.")
 @click.option(
     "--of",
     "command",
     metavar="KIND",
     shell_complete=complete_kind,
-    help="Of the input of a gear pair (gear) or of a calculation (wave-drive, ...) instead.",
+    help="Schema of another input file instead: a gear pair (gear) or a calculation (wave-drive, ...).",
 )
 @common_options
 def schema(of_result: bool, command: str | None) -> None:
-    """Print the JSON Schema of the input file; editors complete and check .toml files with it."""
+    """Print the JSON Schema of the input file, which editors use to complete and check .toml files."""
     if of_result and command:
         raise click.UsageError("give --result or --of, not both")
     if of_result:

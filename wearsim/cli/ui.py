@@ -14,23 +14,23 @@ if TYPE_CHECKING:
     from wearsim.page.case_file import CaseFile
 
 
-@click.command(short_help="A local page to try designs: edit a case, see tooth and life change.")
+@click.command(short_help="Local web page: edit a case and watch its life change.")
 @click.argument("case", required=False, type=CasePath(path_type=Path), metavar="[CASE]")
 @click.option(
     "--port",
     type=click.IntRange(0, 65535),
     default=0,
     metavar="N",
-    help="Port on 127.0.0.1; without it any free one.",
+    help="Port on 127.0.0.1; default: any free port.",
 )
-@click.option("--no-browser", is_flag=True, help="Open no browser, only print the address.")
+@click.option("--no-browser", is_flag=True, help="Only print the address; do not open a browser.")
 @overrides
 @common_options
 def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]) -> None:
-    """Serve a page on which CASE (.toml), or a new case, is edited while its life follows.
+    """Serve a local web page to edit CASE (.toml), or a new case, while its life is recomputed.
 
-    Only this machine reaches it, and nothing is fetched from elsewhere. --set changes what the page
-    begins with, not the file. Ctrl-C stops it. The page needs wearsim[ui].
+    Only this machine can reach the page; it needs no network. --set changes the values that the page
+    starts with, not the file. Ctrl-C stops it. Needs wearsim[ui].
     """
     from wearsim.extras import check_installed
 

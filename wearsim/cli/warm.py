@@ -6,13 +6,13 @@ from wearsim.command.options import common_options
 from wearsim.errors import OutputError
 
 
-@click.command(short_help="Compile everything now, so that no later run waits for it.")
+@click.command(short_help="Compile everything now, so that no later run has to wait.")
 @common_options
 def warm() -> None:
-    """Compile all that the cache does not hold yet: after an installation, or as an image is built.
+    """Compile everything that the cache lacks, after an installation or while an image is built.
 
-    The cache is that of this version of wearsim, of numba and of Python, and holds the machine code of each
-    kind of processor on its own. Without this command each run compiles what it needs for the first time.
+    The cache belongs to this version of wearsim, numba and Python, and holds separate machine code
+    for each kind of processor. Without this command, each run compiles what it needs the first time.
     """
     from wearsim.command.compile_ahead import compile_with_bar
     from wearsim.kernels.compiled import all_kernels, cache_folder, not_in_cache

@@ -42,8 +42,8 @@ def calculation(name: str, short_help: str, *options: Option) -> Callable[[Compu
         command = common_options(overrides(_run))
         for option in (
             *options,
-            click.option("--json", "as_json", is_flag=True, help="As one JSON object."),
-            click.option("--force", is_flag=True, help="Replace what --out names."),
+            click.option("--json", "as_json", is_flag=True, help="Print one JSON object."),
+            click.option("--force", is_flag=True, help="Replace an existing folder."),
             click.option(
                 "--out", type=click.Path(path_type=Path), help="New folder for tables and pictures."
             ),

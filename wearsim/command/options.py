@@ -54,15 +54,15 @@ def overrides(function: Function) -> Function:
         multiple=True,
         metavar="TABLE.KEY=VALUE",
         shell_complete=complete_setting,
-        help="Override a key of the case; VALUE is TOML, else a string. Repeatable.",
+        help="Set a key of the case; VALUE is TOML, or else plain text. Repeatable.",
     )(function)
 
 
 def sprocket_option(function: Function) -> Function:
     """Add ``--sprocket``, for commands that are about one sprocket."""
-    return click.option(
-        "--sprocket", metavar="NAME", help="Which sprocket of a whole drive, a CASE with [[sprocket]] twice."
-    )(function)
+    return click.option("--sprocket", metavar="NAME", help="Name of the sprocket, if the CASE has several.")(
+        function
+    )
 
 
 def warn(text: str) -> None:

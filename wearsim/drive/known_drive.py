@@ -120,28 +120,30 @@ def _default_power(values: Values) -> str:
 
 
 KNOWN = (
-    _fixed("--chain", "Chain, as wearsim list chains has it", "DESIGNATION", known_chain_name, "16B-1"),
-    _fixed("--driver", "Teeth of the driver", "TEETH", _whole(5, 1000), "19"),
-    _fixed("--driven", "Teeth of the driven sprocket", "TEETH", _whole(5, 1000), "25"),
+    _fixed(
+        "--chain", "Chain designation (see wearsim list chains)", "DESIGNATION", known_chain_name, "16B-1"
+    ),
+    _fixed("--driver", "Number of teeth of the driver", "TEETH", _whole(5, 1000), "19"),
+    _fixed("--driven", "Number of teeth of the driven sprocket", "TEETH", _whole(5, 1000), "25"),
     Known("--rpm", "Speed of the driver in rpm", "SPEED", _quantity("rpm"), _default_rpm, "chain at 1 m/s"),
     _fixed(
         "--centre",
-        "Distance of the axes in mm; with none about 40 pitches",
+        "Centre distance in mm; about 40 pitches if empty",
         "LENGTH",
         _or_nothing(_quantity("mm")),
         "",
     ),
     Known(
         "--links",
-        "Links of the chain, in place of --centre",
+        "Number of links, instead of --centre",
         "N",
         _or_nothing(_whole(10, 100_000)),
         lambda values: "",
         asked=False,
     ),
     _one_of("--lubrication", "Lubrication", tuple(LUBRICATIONS)),
-    _fixed("--hours-per-day", "Running hours a day", "HOURS", _quantity("h", 24.0), "8"),
-    _one_of("--shock", "Load of the driven machine", tuple(SHOCKS)),
+    _fixed("--hours-per-day", "Running hours per day", "HOURS", _quantity("h", 24.0), "8"),
+    _one_of("--shock", "Shocks from the driven machine", tuple(SHOCKS)),
     Known(
         "--power",
         "Power in kW",

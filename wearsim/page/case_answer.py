@@ -35,12 +35,12 @@ class CaseAnswer:
         self.lives = {"life": result.life}
         self._show_sound(case)
         self._header.show_life(headline(result))
-        self._header.show_state("drawing", "of the present input, drawing")
+        self._header.show_state("drawing", "up to date, drawing")
         self.panel.show_life(result)
         if not is_slow(case):
             self.panel.show_loads(None)
         self.panel.show_pictures(await edited.step(lambda: pictures(case, result)))
-        self._header.show_state("current", "of the present input")
+        self._header.show_state("current", "up to date")
         return {case.name: (case, result)}
 
     async def _show_first(self, edited: EditedInput, case: Case) -> None:

@@ -42,7 +42,7 @@ async def ask_example(titles: Mapping[str, str]) -> str | None:
     """Ask for one of the shipped cases, by its title and name."""
     options = {name: f"{title} ({name})" for name, title in titles.items()}
     with named_dialog("Examples") as dialog, ui.card().classes("ws-dialog ws-questions"):
-        ui.label("Begin with an example").classes("ws-caption")
+        ui.label("Start from an example").classes("ws-caption")
         chosen = ui.select(options, label="Example", value=next(iter(options)), with_input=True)
         chosen.props("outlined dense")
         with ui.row():
@@ -58,7 +58,7 @@ async def ask_export(
 ) -> tuple[str, str, str] | None:
     """Ask which wheel is to be exported, and how."""
     with named_dialog("Export wheel") as dialog, ui.card().classes("ws-dialog"):
-        ui.label("The wheel for CAD").classes("ws-caption")
+        ui.label("Export for CAD").classes("ws-caption")
         wheel = ui.select(list(wheels), label="Sprocket", value=wheels[0]).props("outlined dense")
         wheel.set_visibility(len(wheels) > 1)
         form = ui.select(list(formats), label="Format", value=formats[0]).props("outlined dense")

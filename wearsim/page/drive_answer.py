@@ -53,10 +53,10 @@ class DriveAnswer:
         found = await edited.step(lambda: drive_life(drive, progress=edited.watch))
         self.lives = found.parts
         self._header.show_life(drive_headline(found))
-        self._header.show_state("drawing", "of the present input, drawing")
+        self._header.show_state("drawing", "up to date, drawing")
         self.panel.show_lives(found)
         self.panel.show_pictures(*await edited.step(lambda: _pictures(found)))
-        self._header.show_state("current", "of the present input")
+        self._header.show_state("current", "up to date")
         cases = {one.name: one.case for one in drive.sprockets}
         return {name: (cases[name], result) for name, result in found.results.items()}
 

@@ -243,7 +243,7 @@ class CasePage:
         self._form.show_faults(faults)
         self._faults.show(faults)
         what = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
-        self._header.show_state("old", f"{what}: the answer is of an earlier input")
+        self._header.show_state("old", f"{what}: showing the previous result")
 
     def _lived(self) -> Mapping[str, tuple[Case, WearResult]]:
         """Give cases and results of the wheels of the present input, none before they are there."""

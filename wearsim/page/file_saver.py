@@ -44,7 +44,7 @@ class FileSaver:
             return
         answer = await choose(
             f"{self.file.path} has changed on disk since it was loaded here.",
-            ("Replace it", "Load it, and lose what is on this page", "Cancel"),
+            ("Replace it", "Load it and discard the changes on this page", "Cancel"),
         )
         if answer == "Replace it":
             self._write(self.file)
@@ -63,7 +63,7 @@ class FileSaver:
             return
         file = self.file if _same(place, self.file) else self.file.renamed(place)
         if file.changed:
-            if await choose(f"{place} is there already.", ("Replace it", "Cancel")) != "Replace it":
+            if await choose(f"{place} already exists.", ("Replace it", "Cancel")) != "Replace it":
                 return
             file = self.file.renamed(place)
         self._write(file)
@@ -91,7 +91,7 @@ class FileSaver:
         """Return whether what is on the page may be left: it is as it began, or the user says so."""
         if self.file.is_blank or self._text() == self.file.begun:
             return True
-        lose = "Lose what is on this page"
+        lose = "Discard the changes on this page"
         question = f"{self.file.path} is not saved as it stands here."
         return await choose(question, (lose, "Cancel")) == lose
 
@@ -99,7 +99,7 @@ class FileSaver:
         """Send the wheel as a file to the browser."""
         names = tuple(self._found())
         if not names:
-            ui.notify("The present input has no answer yet: wait for it, or mend the input.")
+            ui.notify("There is no result for this input yet: wait for it, or correct the input.")
             return
         wanted = await ask_export(names, _FORMATS, tuple(_STATES))
         found = self._found()

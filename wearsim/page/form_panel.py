@@ -37,7 +37,7 @@ class FormPanel:
         self._taken_inputs: Mapping[str, Any] = {}
         self._shape: object = None
         self._body = ui.column().classes("ws-form")
-        self._broken = ui.label("The source is no TOML yet: the form waits until it is.")
+        self._broken = ui.label("This is not valid TOML yet; the form updates once it is.")
         self._broken.classes("ws-broken").set_visibility(False)
 
     def show(self, data: Mapping[str, Any] | None, values: Mapping[str, str], typing: str) -> None:

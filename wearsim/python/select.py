@@ -126,39 +126,39 @@ def select(
 ) -> SelectionResult:
     """Choose chains and teeth of the catalogue for a drive.
 
-    A drive passes where it keeps to the ratings and its chain lives long enough by wear. Text may give
+    A drive passes if it is within the ratings and its chain lasts long enough. Text may give
     a unit, such as ``"4 hp"``.
 
     Parameters
     ----------
     power : float or str
-        Power that the drive transmits [kW].
+        Transmitted power [kW].
     rpm : float or str
         Speed of the driver [rpm].
     ratio : float
-        Its speed over that of the driven shaft.
+        Speed ratio: driver speed over driven speed.
     hours : float or str
-        Running hours that the chain must live [h].
+        Required life of the chain, in running hours [h].
     centre : float or str, optional
-        Distance of the shafts [mm]; about 40 pitches without it.
+        Centre distance [mm]; by default about 40 pitches.
     centre_min : float or str, optional
-        Least distance of the shafts [mm].
+        Smallest centre distance allowed [mm].
     centre_max : float or str, optional
-        Greatest distance of the shafts [mm].
+        Largest centre distance allowed [mm].
     max_diameter : float or str, optional
-        Largest tip circle that there is room for [mm].
+        Largest tip diameter allowed [mm].
     lubrication : str
         ``drip``, ``oil-bath``, ``forced``, ``periodic``, ``grease`` or ``dry``.
     shock : str
         ``smooth``, ``moderate`` or ``heavy``.
     hours_per_day : float
-        Hours of a day.
+        Running hours per day.
     series : sequence of str
         Series of chains: ``A``, ``B``, ``H``, ``GOST``.
     strands : tuple of int
         Fewest and most strands of a chain.
     ratio_tolerance : float
-        Part by which the ratio may be off.
+        Allowed deviation of the ratio.
     teeth_min : int
         Fewest teeth of the smaller sprocket.
     teeth_max : int
@@ -166,7 +166,7 @@ def select(
     price : path, optional
         CSV of designation, price_per_m, sprocket_price_per_kg: the cheapest drive comes first.
     every_pair : bool
-        All teeth of a chain, not only the best.
+        Every pair of tooth numbers of a chain, not only the best.
     count : int
         Drives in the table.
 

@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 def convex_concave(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Lay out the convex-concave gears of CASE, whose path of contact is two circular arcs.
 
-    Radii of curvature, contact ratio and reduced radius beside the involute pair of the same size,
-    the sign conditions, an arc for the rack's flank, and the measurement over rollers. --out
-    writes flanks and outlines (CSV, DXF, STL) too.
+    Prints radii of curvature, contact ratio and reduced radius beside those of the involute pair of
+    the same size, the sign conditions, an arc for the rack flank, and the measurement over rollers.
+    --out also writes flanks and outlines (CSV, DXF, STL).
     """
     from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
     from wearsim.handbook.convex_concave.sheet import convex_concave_sheet

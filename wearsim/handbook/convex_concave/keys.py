@@ -26,7 +26,7 @@ class ConvexConcaveTable(Table):
 
 
 class GearsTable(Table):
-    """What outlines and measurement need besides the flanks."""
+    """Data that outlines and measurement need in addition to the flanks."""
 
     face_width_mm: Positive | None = None
     root_form: Literal["fillet", "radial"] = "fillet"

@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
 @calculation("face-load", "Face load factor of a misaligned pair, new and run in.")
 def face_load(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
-    """Spread the load of the pair of CASE over its face width, and wear the flanks.
+    """Compute the load distribution over the face width of the pair of CASE, and wear the flanks.
 
-    The part of the misalignment that is the same at every mesh runs in, the part that changes
-    from mesh to mesh does not; with a fixed and with a self-aligning pinion.
+    Misalignment that is the same at every mesh runs in; misalignment that changes from mesh to mesh
+    does not. Both a fixed and a self-aligning pinion are computed.
     """
     from wearsim.handbook.face_load.keys import FaceLoadTables
     from wearsim.handbook.face_load.sheet import face_load_sheet

@@ -27,7 +27,7 @@ class WidePairTable(Table):
 
 
 class PairLoadTable(Table):
-    """What it carries."""
+    """Load of the pair."""
 
     power_kW: Positive
     pinion_speed_rpm: Positive
@@ -44,7 +44,7 @@ class MisalignmentTable(Table):
 
 
 class RunningInTable(Table):
-    """What the flanks lose."""
+    """Wear of the flanks."""
 
     specific_wear_rate_mm2_per_N: Positive
     wheel_wear_ratio: NotNegative = 1.0

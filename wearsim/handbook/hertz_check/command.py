@@ -16,14 +16,16 @@ if TYPE_CHECKING:
 
 @calculation(
     "hertz-check",
-    "Contact stress of gears, held against finite elements.",
-    click.option("--fem", is_flag=True, help="Solve it by finite elements too (pip install 'wearsim[fem]')."),
+    "Contact stress of gears compared with finite elements.",
+    click.option(
+        "--fem", is_flag=True, help="Also solve the contact by finite elements (pip install 'wearsim[fem]')."
+    ),
 )
 def hertz_check(case: Path, settings: tuple[str, ...], fem: bool) -> "CalculationSheet":
-    """Give contact stress and von Mises' stresses of the teeth of CASE that touch at the pitch point.
+    """Compute the contact stress and the von Mises stresses of the teeth of CASE at the pitch point.
 
-    Published stresses are held against them: which inputs give them, what one input alone would
-    have to be, and what is lost in the published comparison.
+    Compares them with published stresses: which inputs give those, which value each single input
+    would need, and what the publication leaves out.
     """
     from wearsim.handbook.hertz_check.published import load_hertz_check
     from wearsim.handbook.hertz_check.sheet import hertz_check_sheet

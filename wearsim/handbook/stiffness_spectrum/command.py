@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 
 @calculation("stiffness-spectrum", "Mesh stiffness spectrum of gears with pitch errors.")
 def stiffness_spectrum(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
-    """Give the lines of the mesh stiffness of the gear pair of CASE with its pitch errors.
+    """Compute the spectrum of the mesh stiffness of the gear pair of CASE with its pitch errors.
 
-    Harmonics of the tooth frequency fz and their sidebands at the turns f1 of the pinion and f2
-    of the wheel, exactly and by the closed form of the source; with a load also deflection and
-    stiffness.
+    Gives the harmonics of the tooth frequency fz and their sidebands at the turns f1 of the pinion
+    and f2 of the wheel, exactly and by the closed form of the source; with a load, also deflection
+    and stiffness.
     """
     from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
     from wearsim.handbook.stiffness_spectrum.sheet import stiffness_spectrum_sheet

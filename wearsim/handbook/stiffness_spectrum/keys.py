@@ -45,7 +45,7 @@ class WheelTable(Table):
 
 
 class SpectrumPairTable(Table):
-    """What both wheels share: standard teeth without profile shift."""
+    """Common data of both wheels: standard teeth without profile shift."""
 
     module_mm: Positive
     pressure_angle_deg: Annotated[Positive, Field(ge=10.0, le=35.0)] = 20.0
@@ -53,7 +53,7 @@ class SpectrumPairTable(Table):
 
 
 class SpectrumTable(Table):
-    """What is counted as contact and which lines are wanted."""
+    """Definition of contact, and the lines to compute."""
 
     model: Model = "pairs"
     tooth_harmonics: Annotated[int, Field(ge=1, le=20)] = 3

@@ -11,11 +11,10 @@ if TYPE_CHECKING:
 
 @calculation("strength", "Allowable stresses and fatigue life of a gear pair.")
 def strength(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
-    """Find what the teeth of the gear pair of CASE endure, in contact, in bending, in overloads.
+    """Compute the strength of the gear pair of CASE: contact, bending and overload.
 
-    From material, life and load spectrum follow equivalent cycles, life factors and allowable
-    stresses of pinion and wheel; with a load also the stress, its margins and the hours for
-    which it is allowed.
+    Gives equivalent cycles, life factors and allowable stresses of pinion and wheel from material,
+    life and load spectrum; with a load, also the stresses, their margins and the allowed hours.
     """
     from wearsim.handbook.strength.keys import StrengthTables
     from wearsim.handbook.strength.sheet import strength_sheet

@@ -146,7 +146,7 @@ class StrengthGearTable(Table):
 
 
 class StrengthFatigueTable(Table):
-    """How the curve of contact fatigue is read."""
+    """Interpretation of the curve of contact fatigue."""
 
     base_cycles: Literal["gost", "source"] = "gost"
     long_life: Literal["constant", "gost"] = "constant"
@@ -161,7 +161,7 @@ class OverloadTable(Table):
 
 
 class StrengthLoadTable(Table):
-    """What the pair really carries."""
+    """Actual load of the pair."""
 
     pinion_torque_N_m: Annotated[Positive, Field(ge=1e-6, le=1e9)]
     module_mm: Length

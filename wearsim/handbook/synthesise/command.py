@@ -9,13 +9,13 @@ if TYPE_CHECKING:
     from wearsim.command.calculation_sheet import CalculationSheet
 
 
-@calculation("synthesise", "Profiles of gears with a prescribed contact stress.")
+@calculation("synthesise", "Gear profiles for a prescribed contact stress.")
 def synthesise(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
-    """Find paths of contact and both profiles with the contact stress that CASE prescribes.
+    """Find paths of contact and both profiles for the contact stress that CASE prescribes.
 
-    Phase by phase: through the pitch point, or from a point beside it, where two pairs of profiles
-    have the same stress. The involute of the same pair stands beside each; fields show where in
-    the plane of mesh there are such profiles, and of which kind.
+    Works phase by phase, through the pitch point, or from a point beside it, where two pairs of
+    profiles have the same stress. Each is compared with the involute pair. Fields show where in the
+    plane of mesh such profiles exist, and of which kind.
     """
     from wearsim.handbook.synthesise.keys import SynthesisTables
     from wearsim.handbook.synthesise.sheet import synthesis_sheet

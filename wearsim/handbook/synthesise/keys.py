@@ -22,14 +22,14 @@ class SynthesisPairTable(Table):
 
 
 class PairMaterialsTable(Table):
-    """What the wheels are made of; steel where nothing is given."""
+    """Material of the wheels; steel by default."""
 
     pinion: MaterialTable = MaterialTable()
     wheel: MaterialTable = MaterialTable()
 
 
 class MeshLoadTable(Table):
-    """What one pair of teeth carries: a constant torque, or a constant normal load."""
+    """Load of one pair of teeth: a constant torque, or a constant normal load."""
 
     pinion_torque_N_m: Positive | None = None
     face_width_mm: Positive | None = None

@@ -11,10 +11,10 @@ if TYPE_CHECKING:
 
 @calculation("wave-drive", "Flexspline diameter of a wave gear by eight methods.")
 def wave_drive(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
-    """Size the flexspline of the wave drive of CASE by the methods of six textbooks side by side.
+    """Size the flexspline of the wave drive of CASE by the methods of six textbooks.
 
-    Each gives its diameter, the range over the values recommended for it, and what its result
-    rests on; diameters that were published are held against it.
+    Each method gives a diameter, its range over the recommended values, and what it rests on.
+    Published diameters are compared.
     """
     from wearsim.handbook.wave_drive.keys import WaveDriveTables
     from wearsim.handbook.wave_drive.sheet import wave_drive_sheet

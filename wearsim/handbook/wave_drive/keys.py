@@ -22,7 +22,7 @@ class WaveDriveTable(Table):
 
 
 class PublishedDiameterTable(Table):
-    """What every method's table may hold besides: a diameter to hold the result against."""
+    """Published diameter with which to compare the result of a method."""
 
     published_diameter_mm: Positive | None = None
 

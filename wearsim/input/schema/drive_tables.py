@@ -11,7 +11,7 @@ from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, S
 
 
 class MechanismTable(Table):
-    """The picture of what touches the flank."""
+    """Contact model of the flank."""
 
     kind: Literal["strand", "prescribed", "wrap"] | None = None
     table_file: str | None = None
@@ -82,7 +82,7 @@ class JointTable(Table):
 
 
 class DriveTable(Table):
-    """The other sprocket, the length of the chain, its slack span and how hard the drive is used."""
+    """Other sprocket, chain length, slack span, and factors for the use of the drive."""
 
     mate_teeth: Annotated[int, Field(ge=5, le=1000)] | None = None
     links: Annotated[int, Field(ge=10, le=100000)] | None = None
@@ -119,7 +119,7 @@ OWN_CHAIN = ("pitch_mm", "roller_diameter_mm", "inner_width_mm")
 
 
 class ChainTable(Table):
-    """A chain of the catalogue by its designation, or one of one's own by its dimensions."""
+    """A chain of the catalogue by its designation, or your own by its dimensions."""
 
     designation: str | None = None
     pitch_mm: Annotated[Positive, Field(ge=0.01, le=1e5)] | None = None
@@ -293,7 +293,7 @@ class TakeUpTable(Table):
 
 
 class CogTable(Table):
-    """A cog of a cassette: its teeth and the part of the time in which the chain runs on it."""
+    """A cog of a cassette: its teeth, and the fraction of the time for which the chain runs on it."""
 
     teeth: Annotated[int, Field(ge=5, le=1000)]
     share_of_time: Share

@@ -74,7 +74,7 @@ Times = Annotated[tuple[float, ...], BeforeValidator(_times), WithJsonSchema(_SC
 
 
 class _Surroundings(Table):
-    """What dirt multiplies the wear by."""
+    """Effect of dirt on the wear."""
 
     environment: str | None = None
     contamination_factor: Factor | None = None
@@ -164,7 +164,7 @@ class LubricantOption(_Lubricant):
 
 
 class LubricationTable(_Lubricant, _Surroundings):
-    """The lubricant of all contacts, when it is renewed, and what dirties it."""
+    """Lubricant of all contacts, its relubrication, and dirt."""
 
     interval_hours: Positive | None = None
     interval_km: Positive | None = None

@@ -19,7 +19,7 @@ def _day(value: object) -> object:
 
 
 class ServiceTable(Table):
-    """What an hour of running means in service, to give a life also in other measures."""
+    """Distance, mass and hours of a day in service, to give the life in these measures too."""
 
     km_per_hour: Positive | None = None
     tonnes_per_hour: Positive | None = None
@@ -60,7 +60,7 @@ _SCHEMA: dict[str, Any] = {
 
 
 class MaintenanceTable(Table):
-    """What chain, sprocket and a stop cost, and at which elongations to replace the chain."""
+    """Prices of chain, sprocket and a stop, and elongations at which to replace the chain."""
 
     replace_at_percent: (
         Annotated[list[float], BeforeValidator(_elongations), WithJsonSchema(_SCHEMA)] | None
@@ -91,7 +91,7 @@ Measure = Literal["life_hours", "mass_kg", "peak_pressure_MPa"]
 
 
 class ParameterRange(Table):
-    """Ends between which a key may lie, both allowed."""
+    """Range of a key, both ends allowed."""
 
     low: Finite
     high: Finite
@@ -112,7 +112,7 @@ else:
 
 
 class MeasureLimit(Table):
-    """Ends that a design must keep to."""
+    """Limits of a quantity of a design."""
 
     low: Above0 | None = None
     high: Above0 | None = None
@@ -127,7 +127,7 @@ class MeasureLimit(Table):
 
 
 class LimitsTable(Table):
-    """What a design must keep to beside what `check` finds."""
+    """Limits of a design in addition to those of `check`."""
 
     life_hours: MeasureLimit | None = None
     mass_kg: MeasureLimit | None = None
@@ -173,7 +173,7 @@ _KEYS = {
 
 
 class Distribution(Table):
-    """How the value of one key scatters, in the unit of the key."""
+    """Distribution of one key, in the unit of the key."""
 
     distribution: Literal["lognormal", "normal", "uniform", "triangular", "weibull"]
     median: Above0 | None = None

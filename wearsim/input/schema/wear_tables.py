@@ -208,7 +208,7 @@ def one_hardness(brinell: float | None, rockwell: float | None) -> list[tuple[st
 
 
 class FlankMaterialTable(Table):
-    """What flanks are made of, against contact fatigue."""
+    """Material of the flanks, for contact fatigue."""
 
     treatment: Treatment
     hardness_HB: Brinell | None = None

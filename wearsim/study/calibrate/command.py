@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from wearsim.geometry.measured.registration import Freedom
 
 
-@click.command(short_help="Fit coefficients to measurements; hours left with their band.")
+@click.command(short_help="Fit wear coefficients to measurements; remaining hours.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.argument(
     "measurements", type=click.Path(path_type=Path, exists=True, dir_okay=False), metavar="MEASUREMENTS"
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
     "shapes",
     multiple=True,
     metavar="KEY",
-    help="Fit this key too: wear.pressure_exponent, mechanism.roller_slip_fraction; may be repeated.",
+    help="Also fit wear.pressure_exponent or mechanism.roller_slip_fraction. Repeatable.",
 )
 @click.option(
     "--register",
     type=click.Choice(("turn", "free", "none")),
     default="turn",
     show_default=True,
-    help="How a measured profile may be moved: turned about the axis, also shifted, not at all.",
+    help="Registration of measured profiles: turn about the axis, turn and shift (free), or none.",
 )
 @click.option(
     "--cutoff-mm",
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     show_default=True,
     metavar="MM",
     callback=finite,
-    help="Cut-off wavelength of the filter of profiles.",
+    help="Cut-off wavelength of the profile filter, in mm.",
 )
 @click.option(
     "--confidence",
@@ -47,11 +47,11 @@ if TYPE_CHECKING:
     default=0.9,
     show_default=True,
     callback=finite,
-    help="Of the intervals.",
+    help="Confidence level of the intervals.",
 )
 @click.option("--out", type=click.Path(path_type=Path), help="New folder for tables and pictures.")
-@click.option("--force", is_flag=True, help="Replace what --out names.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
+@click.option("--force", is_flag=True, help="Replace an existing folder.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @overrides
 @common_options
 def calibrate(
@@ -66,14 +66,14 @@ def calibrate(
     as_json: bool,
     settings: tuple[str, ...],
 ) -> None:
-    """Fit the wear coefficients of CASE (.toml) to MEASUREMENTS (.csv), and tell the hours left.
+    """Fit the wear coefficients of CASE (.toml) to MEASUREMENTS (.csv), and print the remaining hours.
 
-    A row of the table is a reading: time_hours (or distance_km, or date), quantity (max_depth_mm,
+    Each row of the table is a reading: time_hours (or distance_km, or date), quantity (max_depth_mm,
     depth_mm at arc_length_mm, over_pins_mm, elongation_percent, chain_length_mm over links,
-    gauge_percent with result, or profile with a points_file), value and error, its standard
-    deviation. Rows with the quantity relubrication say when the lubricant of [lubrication] began
-    anew, in place of its schedule. Of a whole drive the chain can be read. The folder holds fit.csv,
-    fitted_values.csv, summary.md, pictures, and the case with what was fitted. Needs pandera
+    gauge_percent with result, or profile with a points_file), value, and error, its standard
+    deviation. Rows with the quantity relubrication give the times of relubrication, and replace the
+    schedule of [lubrication]. For a whole drive, readings are of the chain. --out writes fit.csv,
+    fitted_values.csv, summary.md, pictures, and the case with the fitted values. Needs pandera
     (pip install 'wearsim[study]').
     """
     from wearsim.extras import check_installed

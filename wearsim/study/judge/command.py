@@ -9,7 +9,7 @@ from wearsim.command.options import common_options, error_json, print_json, warn
 from wearsim.errors import WearsimError
 
 
-@click.command(short_help="Which law of wear do your readings follow?")
+@click.command(short_help="Which wear law do your readings follow?")
 @click.argument("data", type=click.Path(path_type=Path, exists=True, dir_okay=False), metavar="DATA")
 @click.option(
     "--particles",
@@ -17,19 +17,19 @@ from wearsim.errors import WearsimError
     default=1000,
     show_default=True,
     metavar="N",
-    help="Draws of the constants of each law.",
+    help="Number of random draws of the constants of each law.",
 )
 @click.option("--out", type=click.Path(path_type=Path), help="New folder for tables and a picture.")
-@click.option("--force", is_flag=True, help="Replace what --out names.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
+@click.option("--force", is_flag=True, help="Replace an existing folder.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @common_options
 def judge(data: Path, particles: int, out: Path | None, force: bool, as_json: bool) -> None:
-    """Fit every law that applies to a part of the readings in DATA (.csv), and score it by the rest.
+    """Fit each applicable wear law to some of the readings in DATA (.csv), and score it on the rest.
 
-    A row of the table is a reading: series, cycles (or time_hours, distance_km, distance_m),
-    wear_um (or wear_mm, wear_mg, elongation_percent), and if known load_N, reading_error,
+    Each row of the table is a reading: series, cycles (or time_hours, distance_km, distance_m),
+    wear_um (or wear_mm, wear_mg, elongation_percent), and, if known, load_N, reading_error,
     censored, environment, relubricated, t_gamma_N_per_mm2, speed_m_per_s and held_out. Without
-    held_out the later half of each series is held out.
+    held_out, the later half of each series is held out.
     """
     if out is not None:
         from wearsim.files import check_folder

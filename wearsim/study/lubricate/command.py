@@ -18,18 +18,18 @@ from wearsim.command.options import (
 from wearsim.errors import WearsimError
 
 
-@click.command(short_help="When to lubricate again: hours, cost, lubricants.")
+@click.command(short_help="Compare relubrication intervals and lubricants.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
-@click.option("--out", type=click.Path(path_type=Path), help="New folder for table, text and picture.")
-@click.option("--force", is_flag=True, help="Replace what --out names.")
-@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@click.option("--out", type=click.Path(path_type=Path), help="New folder for table, summary and picture.")
+@click.option("--force", is_flag=True, help="Replace an existing folder.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @overrides
 @common_options
 def lubricate(case: Path, out: Path | None, force: bool, as_json: bool, settings: tuple[str, ...]) -> None:
-    """Compare intervals between relubrications of CASE: lives of its parts, and cost per 1000 h.
+    """Compare relubrication intervals of CASE: lives of its parts, and cost per 1000 h.
 
-    How long the lubricant lasts, its price and the minutes of work stand in [lubrication],
-    other lubricants in [[lubrication.option]], prices of chain and sprockets in [maintenance].
+    [lubrication] gives how long the lubricant lasts, its price and the minutes of work,
+    [[lubrication.option]] other lubricants, and [maintenance] the prices of chain and sprockets.
     """
     from wearsim.files import check_folder
 

@@ -27,21 +27,21 @@ if TYPE_CHECKING:
     from wearsim.drive.drive_case import DriveCase
 
 
-@click.command(short_help="When to replace chain and sprockets: hours, cost.")
+@click.command(short_help="When to replace chain and sprockets, and at what cost.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
-@click.option("--out", type=click.Path(path_type=Path), help="New folder for tables, page and picture.")
-@click.option("--force", is_flag=True, help="Replace what --out names.")
-@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@click.option("--out", type=click.Path(path_type=Path), help="New folder for tables, summary and picture.")
+@click.option("--force", is_flag=True, help="Replace an existing folder.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @overrides
 @common_options
 def maintain(case: Path, out: Path | None, force: bool, as_json: bool, settings: tuple[str, ...]) -> None:
-    """Compare elongations at which the chain of CASE is replaced while its sprocket stays.
+    """Compare when to replace the chain of CASE while its sprocket stays.
 
-    Elongations, prices and whether the sprocket is turned stand in [maintenance]. Tooth and
-    link counts near the case's own follow, with the lives of four of them.
+    [maintenance] gives the elongations to compare, the prices, and whether the sprocket is turned.
+    Also lists numbers of teeth and links close to those of the case, with the lives of four of them.
 
-    A CASE with [[sprocket]] twice is a whole drive: when to replace which of its parts, by the
-    life of each and the prices in [maintenance].
+    For a whole drive ([[sprocket]] twice or more): when to replace which part, from the life of each
+    part and the prices in [maintenance].
     """
     (loaded,) = load_cases([case], settings, as_json)
     from wearsim.files import check_folder

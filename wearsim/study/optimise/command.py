@@ -16,31 +16,33 @@ if TYPE_CHECKING:
     from wearsim.study.optimise.model import OptimiseStudy
 
 
-@click.command(short_help="The best profile for life, mass and pressure; Pareto fronts.")
+@click.command(short_help="Best design for life, mass and pressure; Pareto fronts.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--evaluations",
     type=click.IntRange(min=10, max=1_000_000),
     default=400,
     show_default=True,
-    help="Designs that may be tried.",
+    help="Largest number of designs to try.",
 )
-@click.option("--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the search.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
+@click.option(
+    "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Seed of the random search."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @study_options
 @overrides
 @common_options
 def optimise(
     case: Path, evaluations: int, seed: int, as_json: bool, options: StudyOptions, settings: tuple[str, ...]
 ) -> int:
-    """Print the best designs of CASE (.toml) among those that its table [optimise] allows.
+    """Find the best designs of CASE (.toml) among those that its table [optimise] allows.
 
-    The table names parameters (ranges or lists of values of any keys), objectives (life_hours,
-    mass_kg, peak_pressure_MPa) and limits. One objective gives the best design, several the
-    front of those than which none is better in all (pip install 'wearsim[optimise]').
+    The table gives parameters (ranges or lists of values of any keys), objectives (life_hours,
+    mass_kg, peak_pressure_MPa) and limits. One objective gives the best design, several give the
+    Pareto front (pip install 'wearsim[optimise]').
 
-    With --out, DIR holds candidates.csv, front.csv, summary.md, pictures, each of the best
-    designs as a case in designs, and what is finished: run again, the same command goes on.
+    --out writes candidates.csv, front.csv, summary.md, pictures, and the best designs as cases in
+    the folder designs. To continue an interrupted study, run the same command again.
     """
     from wearsim.study.optimise.model import load_optimise
     from wearsim.study.optimise.search import best_designs, check_library

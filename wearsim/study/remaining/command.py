@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
 
-@click.command(short_help="Hours left after readings in service.")
+@click.command(short_help="Remaining life from readings in service.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.argument(
     "readings",
@@ -40,24 +40,24 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
     type=_POSITIVE,
     metavar="H",
     callback=finite,
-    help="Running hours of the part that was measured, sprocket or chain, since it was new.",
+    help="Running hours of the measured part (sprocket or chain) since it was new.",
 )
 @click.option(
-    "--depth-mm",
-    type=_POSITIVE,
-    metavar="MM",
-    callback=finite,
-    help="Depth worn off a tooth at the deepest point.",
+    "--depth-mm", type=_POSITIVE, metavar="MM", callback=finite, help="Greatest wear depth on a tooth, in mm."
 )
 @click.option(
     "--over-pins-mm",
     type=_POSITIVE,
     metavar="MM",
     callback=finite,
-    help="How much less the measurement over pins is than when new.",
+    help="Decrease of the measurement over pins since new, in mm.",
 )
 @click.option(
-    "--elongation", type=_POSITIVE, metavar="PERCENT", callback=finite, help="Elongation of the chain."
+    "--elongation",
+    type=_POSITIVE,
+    metavar="PERCENT",
+    callback=finite,
+    help="Elongation of the chain, in percent.",
 )
 @click.option(
     "--reading-error-mm",
@@ -66,7 +66,7 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
     show_default=True,
     metavar="MM",
     callback=finite,
-    help="Error of a reading in mm, to either side.",
+    help="Error of a reading, plus or minus, in mm.",
 )
 @click.option(
     "--reading-error-percent",
@@ -75,11 +75,11 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
     show_default=True,
     metavar="PERCENT",
     callback=finite,
-    help="Error of an elongation, to either side; a standard deviation for rows that state none.",
+    help="Error of an elongation, plus or minus; in READINGS, the default standard deviation.",
 )
 @click.option("--out", type=click.Path(path_type=Path), help="New folder for tables and a picture.")
-@click.option("--force", is_flag=True, help="Replace what --out names.")
-@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@click.option("--force", is_flag=True, help="Replace an existing folder.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @overrides
 @common_options
 def remaining(
@@ -96,14 +96,14 @@ def remaining(
     as_json: bool,
     settings: tuple[str, ...],
 ) -> None:
-    """Print the hours that are left of CASE; readings replace the wear coefficient.
+    """Print the remaining hours of CASE; readings replace its wear coefficient.
 
-    Either one reading: --hours with one of --depth-mm, --over-pins-mm and --elongation. Life times
-    coefficient is constant, so the answer is exact as long as the coefficient is.
+    With one reading: --hours and one of --depth-mm, --over-pins-mm and --elongation. Life times
+    coefficient is constant, so the answer is exact as long as the coefficient stays the same.
 
-    Or READINGS (.csv), all that was read of one chain by hours, km or date: chain_length_mm over links,
-    elongation_percent, gauge_percent with go or no-go, and when it was relubricated. The answer has
-    intervals of 50 and 90 %. Of a whole drive the chain can be read.
+    With READINGS (.csv), the log of one chain by hours, km or date: chain_length_mm over links,
+    elongation_percent, gauge_percent with go or no-go, and relubrications. The answer has intervals of
+    50 and 90 %. For a whole drive, readings are of the chain.
     """
     values = (depth_mm, over_pins_mm, elongation)
     given = [value for value in values if value is not None]

@@ -43,21 +43,23 @@ def _lubrications(
 def _requirement_options(function: _Function) -> _Function:
     """Add the options that say what the drive is to do and what may be used for it."""
     options = (
-        click.option("--power", metavar="KW", help="Power that the drive transmits, such as 3 or '4 hp'."),
+        click.option(
+            "--power", metavar="KW", help="Transmitted power in kW, or with a unit, such as '4 hp'."
+        ),
         click.option("--rpm", metavar="RPM", help="Speed of the driver."),
-        click.option("--ratio", metavar="I", help="Its speed over that of the driven shaft."),
-        click.option("--hours", metavar="H", help="Running hours that the chain must live."),
-        click.option("--centre", metavar="MM", help="Distance of the shafts; about 40 pitches without it."),
-        click.option("--centre-min", metavar="MM", help="Least distance of the shafts."),
-        click.option("--centre-max", metavar="MM", help="Greatest distance of the shafts."),
-        click.option("--max-diameter", metavar="MM", help="Largest tip circle that there is room for."),
+        click.option("--ratio", metavar="I", help="Speed ratio: driver speed over driven speed."),
+        click.option("--hours", metavar="H", help="Required life of the chain, in running hours."),
+        click.option("--centre", metavar="MM", help="Centre distance in mm; default: about 40 pitches."),
+        click.option("--centre-min", metavar="MM", help="Smallest centre distance allowed."),
+        click.option("--centre-max", metavar="MM", help="Largest centre distance allowed."),
+        click.option("--max-diameter", metavar="MM", help="Largest tip diameter allowed."),
         click.option(
             "--lubrication",
             default="drip",
             show_default=True,
             metavar="WORD",
             shell_complete=_lubrications,
-            help="drip, oil-bath, forced, periodic, grease or dry.",
+            help="Lubrication: drip, oil-bath, forced, periodic, grease or dry.",
         ),
         click.option(
             "--shock",
@@ -65,48 +67,71 @@ def _requirement_options(function: _Function) -> _Function:
             show_default=True,
             metavar="WORD",
             shell_complete=_offer(("smooth", "moderate", "heavy")),
-            help="Load of the driven machine: smooth, moderate or heavy shocks.",
+            help="Shocks from the driven machine: smooth, moderate or heavy.",
         ),
-        click.option("--hours-per-day", default="8", show_default=True, metavar="H", help="Hours of a day."),
+        click.option(
+            "--hours-per-day", default="8", show_default=True, metavar="H", help="Running hours per day."
+        ),
         click.option(
             "--series",
             default="A,B,H,GOST",
             show_default=True,
             metavar="WORDS",
             shell_complete=_offer(("A", "B", "H", "GOST")),
-            help="Series of chains, with commas between them.",
+            help="Chain series to choose from, separated by commas.",
         ),
         click.option(
-            "--strands", default="1-3", show_default=True, metavar="N-M", help="Strands of a chain."
+            "--strands",
+            default="1-3",
+            show_default=True,
+            metavar="N-M",
+            help="Number of strands, from N to M.",
         ),
         click.option(
             "--ratio-tolerance",
             default="3 %",
             show_default=True,
             metavar="PERCENT",
-            help="Part by which the ratio may be off.",
+            help="Allowed deviation of the ratio.",
         ),
         click.option(
-            "--teeth-min", default="17", show_default=True, metavar="Z", help="Of the smaller sprocket."
+            "--teeth-min",
+            default="17",
+            show_default=True,
+            metavar="Z",
+            help="Fewest teeth on the smaller sprocket.",
         ),
-        click.option("--teeth-max", default="25", show_default=True, metavar="Z", help="Of the same."),
+        click.option(
+            "--teeth-max",
+            default="25",
+            show_default=True,
+            metavar="Z",
+            help="Most teeth on the smaller sprocket.",
+        ),
     )
     for option in reversed(options):
         function = option(function)
     return function
 
 
-@click.command(short_help="Chains and teeth of the catalogue for a drive.")
+@click.command(short_help="Choose a chain and teeth for a drive.")
 @_requirement_options
 @click.option(
     "--price",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="CSV of designation, price_per_m, sprocket_price_per_kg: the cheapest drive first.",
+    help="Price list, to rank by price: CSV with designation, price_per_m, sprocket_price_per_kg.",
 )
-@click.option("--every-pair", is_flag=True, help="Show all teeth of a chain, not only the best.")
 @click.option(
-    "--count", type=click.IntRange(min=1), default=10, show_default=True, metavar="N", help="Drives shown."
+    "--every-pair", is_flag=True, help="Show every pair of tooth numbers of a chain, not only the best."
+)
+@click.option(
+    "--count",
+    type=click.IntRange(min=1),
+    default=10,
+    show_default=True,
+    metavar="N",
+    help="Number of drives to show.",
 )
 @click.option(
     "--verify",
@@ -114,23 +139,23 @@ def _requirement_options(function: _Function) -> _Function:
     default=0,
     show_default=True,
     metavar="N",
-    help="Wear the sprockets of the first N drives shown too, up to twice the hours.",
+    help="Also wear the sprockets of the first N drives, for up to twice the hours.",
 )
 @click.option(
     "--out",
     type=click.Path(path_type=Path, allow_dash=True),
     metavar="FILE",
-    help="New case of the best drive; - is stdout.",
+    help="New case file for the best drive; - for stdout.",
 )
 @click.option(
     "--csv",
     "csv_file",
     type=click.Path(path_type=Path, allow_dash=True),
     metavar="FILE",
-    help="New table of the drives shown; - is stdout.",
+    help="New CSV file for the drives shown; - for stdout.",
 )
-@click.option("--force", is_flag=True, help="Replace the files.")
-@click.option("--json", "as_json", is_flag=True, help="As one JSON object.")
+@click.option("--force", is_flag=True, help="Replace existing files.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @common_options
 def select(
     price: Path | None,
@@ -145,8 +170,8 @@ def select(
 ) -> int:
     """Choose chains and teeth of the catalogue for a drive.
 
-    A drive passes where it keeps to the ratings and its chain lives long enough by wear. The
-    lightest one comes first, or the cheapest. Exit code 3 where none passes.
+    A drive passes if it is within the ratings and its chain lasts long enough. The lightest drive
+    comes first, or the cheapest with --price. The exit code is 3 if no drive passes.
     """
     from wearsim.study.select.sheet import answer_to, selection_json, selection_text
     from wearsim.study.select.wish import read_wish

@@ -17,7 +17,7 @@ def _power_of_two(context: click.Context, parameter: click.Parameter, value: int
     return value
 
 
-@click.command(short_help="What of the input matters: Sobol', Morris, tornado.")
+@click.command(short_help="Which inputs matter most: Sobol', Morris, tornado.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--samples",
@@ -25,17 +25,19 @@ def _power_of_two(context: click.Context, parameter: click.Parameter, value: int
     default=256,
     show_default=True,
     callback=_power_of_two,
-    help="Base samples of Sobol's method, a power of two; keys + 2 lives each.",
+    help="Base samples of Sobol's method, a power of two; each takes keys + 2 lives.",
 )
 @click.option(
     "--trajectories",
     type=click.IntRange(min=4, max=10_000),
     default=20,
     show_default=True,
-    help="Of Morris' method; keys + 1 lives each.",
+    help="Trajectories of Morris' method; each takes keys + 1 lives.",
 )
-@click.option("--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the samples.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
+@click.option(
+    "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Seed of the random samples."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @study_options
 @overrides
 @common_options
@@ -50,9 +52,9 @@ def sensitivity(
 ) -> int:
     """Print which keys of CASE (.toml) its life depends on, and what would double it.
 
-    The table [uncertainty] of the case tells what scatters and how. With --out, DIR holds
-    sensitivity.csv, cases.csv, summary.md, a tornado, and what is finished: run again, the same
-    command goes on. Needs SALib (pip install 'wearsim[study]').
+    The table [uncertainty] of the case gives the distributions of its keys. --out writes
+    sensitivity.csv, cases.csv, summary.md and a tornado chart. To continue an interrupted study, run
+    the same command again. Needs SALib (pip install 'wearsim[study]').
     """
     from wearsim.extras import check_installed
 

@@ -10,20 +10,20 @@ from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import exit_code, run
 
 
-@click.command(short_help="Lives over values of any keys: grids, lists, designs.")
+@click.command(short_help="Lives for many values of any keys: grids, lists, designs.")
 @click.argument("study", type=CasePath(path_type=Path), metavar="STUDY")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object per case on stdout.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object per case.")
 @study_options
 @overrides
 @common_options
 def sweep(study: Path, as_json: bool, options: StudyOptions, settings: tuple[str, ...]) -> int:
-    """Run the case of STUDY (.toml) over values of its keys and print the lives.
+    """Run the case of STUDY (.toml) for many values of its keys and print the lives.
 
-    STUDY names the case and gives values in [grid] (every combination), [[zip]] (keys that
-    go together) and [[design]] (as they are). --set overrides keys of the case.
+    STUDY names the case and gives values in [grid] (every combination), [[zip]] (keys that change
+    together) and [[design]] (single designs). --set changes keys of the case.
 
-    With --out, DIR holds cases.csv, summary.md, pictures, and what is finished: run again, the
-    same command goes on.
+    --out writes cases.csv, summary.md and pictures. To continue an interrupted study, run the same
+    command again.
     """
     from wearsim.study.sweep.model import load_sweep
 

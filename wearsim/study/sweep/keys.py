@@ -27,7 +27,7 @@ _MAX = 1_000_000
 
 
 class Range(Table):
-    """Values between two ends, both taken."""
+    """Values between two ends, both included."""
 
     first: Annotated[Finite, Field(alias="from")]
     last: Annotated[Finite, Field(alias="to")]

@@ -20,36 +20,38 @@ if TYPE_CHECKING:
 _ROUNDING = 1e-9
 
 
-@click.command(short_help="P10, P50 and P90 of a life whose inputs scatter.")
+@click.command(short_help="P10, P50 and P90 life when inputs scatter.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--samples",
     type=click.IntRange(min=2, max=10_000_000),
     default=1024,
     show_default=True,
-    help="Lives that are calculated.",
+    help="Number of lives to compute.",
 )
-@click.option("--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Of the samples.")
+@click.option(
+    "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Seed of the random samples."
+)
 @click.option(
     "--method",
     type=click.Choice(("sobol", "lhs", "random")),
     default="sobol",
     show_default=True,
-    help="Scrambled Sobol' points, a Latin hypercube, or independent samples.",
+    help="Sampling: scrambled Sobol' points, Latin hypercube or independent samples.",
 )
 @click.option(
     "--require-hours",
     type=click.FloatRange(min=0.0, min_open=True),
     metavar="H",
     callback=finite,
-    help="Exit with 4 where P10 is shorter; raises the horizon to at least H.",
+    help="Exit with code 4 if P10 is shorter; raises the horizon to at least H.",
 )
 @click.option(
     "--cross-check",
     is_flag=True,
-    help="Repeat the fits by the library reliability (pip install 'wearsim[crosscheck]').",
+    help="Repeat the fits with the library reliability (pip install 'wearsim[crosscheck]').",
 )
-@click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @study_options
 @overrides
 @common_options
@@ -64,13 +66,13 @@ def uncertainty(
     options: StudyOptions,
     settings: tuple[str, ...],
 ) -> int:
-    """Print the life that 9 of 10, half and 1 of 10 drives like CASE (.toml) outlive.
+    """Print the lives that 90 %, 50 % and 10 % of drives like CASE (.toml) exceed.
 
-    The table [uncertainty] of the case tells what scatters and how; the wear coefficient does by
-    the published scatter where the table names none.
+    The table [uncertainty] of the case gives the distributions of its keys; a wear coefficient that
+    it does not name scatters as published.
 
-    With --out, DIR holds cases.csv, convergence.csv, summary.md, pictures, and what is finished:
-    run again, the same command goes on.
+    --out writes cases.csv, convergence.csv, summary.md and pictures. To continue an interrupted
+    study, run the same command again.
     """
     from wearsim.extras import check_installed
     from wearsim.study.uncertainty.model import load_uncertainty
