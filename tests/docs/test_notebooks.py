@@ -4,6 +4,7 @@ The pages' build runs every cell and fails where one does.
 """
 
 import ast
+import math
 import re
 from itertools import pairwise
 from pathlib import Path
@@ -67,9 +68,10 @@ def test_first_life_says_what_it_finds():
     assert names["check"].headline == "ok"
     assert result.life == result.parts["chain"]
     assert 1.0 < result.parts["sprocket"].hours / result.parts["chain"].hours < 2.0  # a second chain
-    # Joints wear at 0.9 to 1.5e-10 mm2/N, 1.2e-10 in the middle: a quarter either way.
-    assert result.life.hours / result.life_low.hours == pytest.approx(1.5 / 1.2, rel=1e-6)
-    assert result.life_high.hours / result.life.hours == pytest.approx(1.2 / 0.9, rel=1e-6)
+    # Rules scatter by 0.5 to 2.5 about joints of 0.9 to 1.5e-10 mm2/N, 1.2e-10 in the middle.
+    low, high = (math.exp(math.hypot(*map(math.log, pair))) for pair in ((2.5, 1.5 / 1.2), (2.0, 1.2 / 0.9)))
+    assert result.life.hours / result.life_low.hours == pytest.approx(low, rel=1e-6)
+    assert result.life_high.hours / result.life.hours == pytest.approx(high, rel=1e-6)
     less = simulate(case.with_({"load.power_kW": 2}))
     assert 1.4 < less.life.hours / result.life.hours < 1.5  # not quite 3/2
     softer = simulate(case.with_({"wear.condition": "normalised, greased"}))
@@ -92,7 +94,7 @@ def test_which_sprocket_says_what_it_finds():
     assert last.cost_per_1000_h == pytest.approx(1000.0 * pieces / last.sprocket_life_hours, rel=1e-9)
     p10, p50, p90 = names["sure"].percentiles.itertuples()
     assert p10.known
-    assert p50.life_hours > 1.8 * p10.life_hours
+    assert p50.life_hours > 1.6 * p10.life_hours
     assert not p90.known
 
 
@@ -103,7 +105,7 @@ def test_hours_left_says_what_it_finds():
     before, chain = names["before"], names["chain"]
     # Elongation is linear: 3 % of it after 6000 h 3/1.13.
     assert chain.life.hours == pytest.approx(6000.0 * 3.0 / 1.13, rel=1e-9)
-    assert chain.life.hours < before.life_low.hours
+    assert before.life_low.hours < chain.life.hours < 1.2 * before.life_low.hours
     for end in (chain.remaining_low, chain.remaining_high):
         assert end.hours == pytest.approx(chain.remaining.hours, rel=0.1)
     tooth = names["tooth"]
