@@ -42,7 +42,7 @@ class DrivePanel:
             self._chosen = ui.select([], label="Flank of", on_change=lambda: self._show_flank())
             self._chosen.classes("ws-chosen").props("outlined dense")
         with ui.element("section").classes("ws-card") as self._lives:
-            heading("Lives on one clock")
+            heading("Service life of all parts")
             self._bars = ui.html("", sanitize=False)
         self._ratings = ui.element("section").classes("ws-card")
         self._text = ui.element("section").classes("ws-card")
