@@ -9,8 +9,11 @@ from click.testing import CliRunner
 
 from wearsim.chain.joint_pressure import joint_application_factor
 from wearsim.chain.power_rating import application_factor
+from wearsim.chain.service_conditions import plain_word
 from wearsim.cli.main import wearsim_command
+from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
+from wearsim.mechanisms.wrap.drive import supply_in_words
 
 STRAND = Path(__file__).with_name("strand_start.toml")
 EXAMPLE = {
@@ -124,8 +127,25 @@ def test_every_option_counts(start, options, table, key, value):
 def test_lubrication_is_wear_and_a_factor(start, word, state, condition):
     drive = start(lubrication=word, shock="heavy").driver.case
     assert drive.inputs["wear"]["condition"] == condition
+    assert supply_in_words(drive) == (plain_word(word), "clean")
+    assert drive.lubrication.steady
     factor = joint_application_factor("heavy shocks", state, "one")
     assert drive.drive.joint_application_factor == pytest.approx(factor)
+
+
+def test_supply_of_lubricant_leaves_the_hours(cli, tmp_path):
+    """The same drive without [lubrication] lasts as long; it only cannot be held against its speed."""
+    case = tomllib.loads(cli("init", *words(EXAMPLE | {"--lubrication": "dry", "--rpm": "400"})).out)
+    case |= {"mechanism": {"phases": 1}, "run": {"life_tolerance": 0.1}}
+    for one in case["sprocket"]:
+        one["nodes"] = 41
+    found, silent = (
+        drive_life(load_drive(tables)).complete()
+        for tables in (case, {key: table for key, table in case.items() if key != "lubrication"})
+    )
+    assert found.parts == silent.parts
+    assert found.warnings[0].startswith("lubrication 'dry', where 'oil-bath' is recommended")
+    assert any("outside a rating" in text for text in found.warnings[1:])
 
 
 @pytest.mark.parametrize(

@@ -97,7 +97,7 @@ def test_answer_on_screen(cli, wrapped):
         "Limits at the end of the life critical_depth_mm 0.03 of 0.03, elongation_percent 0.",
         "Worn most 0.03 mm at ",
         "from the gap's right tip; peak pressure ",
-        "a roller slides 0.1 of the articulation of 18 degrees",
+        "10 % of the articulation angle of 18 degrees",
         "every tooth alike",
     ):
         assert part in text

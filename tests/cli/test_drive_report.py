@@ -164,7 +164,7 @@ def test_shafts_and_spans_are_those_of_the_layout(lived, page):
         assert row == [f"{one['from']} to {one['to']}", f"{one['length_mm']:.1f}", grouped(one["tension_N"])]
     text = unescape(page)
     assert f"efficiency {100 * layout['efficiency']:.2f} %" in text
-    assert f"turn {layout['friction_heat_W']:.3g} W into heat" in text
+    assert f"loss: {layout['friction_heat_W']:.3g} W, efficiency" in text
     assert f"adds {grouped(layout['centrifugal_tension_N'], 3)} N" in text
     for span in layout["spans"]:
         assert f">{grouped(span['tension_N'])} N</text>" in page

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from wearsim.drive.load_case import load_drive
+from wearsim.simulation.wrap_life import chain_practice
 
 NEED = ("--power", "3 kW", "--rpm", 120, "--ratio", 2.7, "--hours", 15000)
 
@@ -60,7 +61,7 @@ def test_rows_of_text_json_and_csv_agree(cli, tmp_path):
         ("--power", "9 hp"),
         ("--rpm", "200"),
         ("--ratio", "2.2"),
-        ("--hours", "200000"),
+        ("--hours", "100000"),
         ("--centre", "700"),
         ("--centre-min", "1200"),
         ("--centre-max", "600"),
@@ -223,6 +224,26 @@ def test_case_is_complete_and_has_the_same_life(cli, tmp_path, options):
     ratings = {one.name: one for one in driver.drive.ratings(driver)}
     most = ratings[best["most_used_rating"]]
     assert 100 * (1 - most.used) == pytest.approx(best["rating_margin_percent"], abs=1e-6)
+
+
+FAST = ("select", "--power", 18.5, "--rpm", 1450, "--ratio", 3, "--hours", 15000)
+
+
+def test_lubrication_is_held_against_pitch_and_speed(cli, tmp_path):
+    """7.8 m/s of 3/4 inch: a bath is recommended, drip is given, 0.4 times the life."""
+    out = tmp_path / "best.toml"
+    found = json.loads(cli(*FAST, "--json", "--out", out).out)
+    assert "lubrication" in found["refused"]
+    for drive in found["drives"]:
+        assert drive["recommended_lubrication"] == "oil-bath"
+        assert drive["lubricated_life_hours"] == pytest.approx(0.4 * drive["chain_life_hours"])
+        assert drive["lubricated_life_hours"] >= 15000
+    driver = load_drive(out).driver.case
+    assert "'drip', where 'oil-bath' is recommended" in chain_practice(driver).warnings[0]
+    text = cli(*FAST).out
+    assert "below oil-bath: " in text
+    assert " lubrication 'drip': " in " ".join(text.split())
+    assert "below" not in cli(*FAST, "--lubrication", "oil-bath").out
 
 
 def test_files_on_stdout(cli):

@@ -110,7 +110,7 @@ def test_the_answer_takes_twelve_lines(cli, drive, monkeypatch):
     assert len(out.splitlines()) <= 12
     day = json.loads(cli("life", drive, "--json").out)["service"]["date"]
     assert f" h ({day}), then every " in out
-    assert "jumping: safe\n" in out
+    assert "jumping: no risk\n" in out
 
 
 def test_overload_stands_beside_the_hours(cli, drive):

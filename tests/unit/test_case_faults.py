@@ -369,3 +369,9 @@ def test_mapping_is_left_as_it_was():
 def test_misspelt_override_names_the_key_that_is_meant(faults, setting, hint):
     (found,) = faults(MINIMAL, setting)
     assert found.endswith(f"; did you mean {hint}?")
+
+
+def test_a_key_that_begins_another_one_is_taken_for_it(faults):
+    """`share` is the share of time, though `power_share` is more like it letter by letter."""
+    text = MINIMAL.split("[load]")[0] + "[[duty]]\nshare = 1.0\ntension_N = 300\nspeed_rpm = 100\n"
+    assert any("duty.1.share: unknown key; did you mean 'share_of_time'?" in one for one in faults(text))

@@ -167,7 +167,7 @@ def test_two_halves_of_the_duty_are_the_whole():
 
 def test_assumptions_name_the_sliding_and_the_teeth():
     text = " ".join(contact().assumptions())
-    for part in ("0.1 of the articulation of 18 degrees", "teeth of two kinds", "half-space"):
+    for part in ("10 % of the articulation angle of 18 degrees", "teeth of two kinds", "half-space"):
         assert part in text
     assert "every tooth alike" in " ".join(contact("joint.pitch='uniform'").assumptions())
 

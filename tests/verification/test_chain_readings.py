@@ -287,7 +287,16 @@ BAD = [
     (H, ["500,gauge_percent,,,go,"], ":2: value: must be the mark of the gauge"),
     (H, ["500,gauge,0.75,,go,"], ":2: quantity: must be one of new, chain_length_mm"),
     (H, ["500,max_depth_mm,0.1,,,"], "wearsim calibrate takes readings of the teeth"),
-    (H, ["500,chain_length_mm,1280,101,,"], ":2: links: must be an even number of links"),
+    (H, ["500,chain_length_mm,1280,101,,"], ": measure over one link fewer (got '101')"),
+    (H, ["500,chain_length_mm,50 inch,100,,"], "(got '50 inch'): write 1270, in mm"),
+    (
+        H,
+        ["0,new,1270,100,,"],
+        ":2: value: must be empty for new (got '1270'): leave the length of the new chain",
+    ),
+    (H, ["1200,new,,,,"], "subtract the odometer's or hour meter's reading at its start from every time"),
+    ("distance_km", ["100 miles,elongation_percent,0.6,,,"], "(got '100 miles'): write 160.9344, in km"),
+    ("distance_miles", ["100,elongation_percent,0.6,,,"], "distance_km (1.609344 times the miles)"),
     (
         "time_hours",
         ["500,chain_length_mm,1260,100,,"],

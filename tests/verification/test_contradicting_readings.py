@@ -229,9 +229,7 @@ ELONGATED = {"time_hours": 900, "quantity": "elongation_percent", "value": 2.9, 
 
 
 def asked(texts):
-    form = (
-        r"the readings ask for ([\d.]+) times the joints' wear coefficient of the case, outside its band of"
-    )
+    form = r"the readings imply ([\d.]+) times the joints' wear coefficient of the case, outside its band of"
     return [float(one[1]) for one in (re.match(form, text) for text in texts) if one]
 
 

@@ -115,6 +115,38 @@ def test_no_80_drive(validated: Callable[..., None]) -> None:
     assert short.layout.links == 122
 
 
+def lubricated(word: str, power: float = 18.5) -> DriveRequirements:
+    joints = wear_conditions()[LUBRICATIONS[word].wear_condition]
+    return DriveRequirements(power, 1450.0, 3.0, 15_000.0, joints=joints, lubrication=word)
+
+
+def test_lubrication_below_the_recommended_one_refuses() -> None:
+    """No. 50 on 19 teeth at 1450 rpm: 19 x 15.875 x 1450/60000 = 7.29 m/s, and drip ends at 1.27 m/s.
+
+    A bath is recommended up to 10.2 m/s; drip is one type below, 0.4 times the life. A stream is no poorer.
+    """
+    drip, bath, forced = (
+        drive_of(judged(lubricated(word)), "10A-2", (19, 56)) for word in ("drip", "oil-bath", "forced")
+    )
+    assert drip.chain_speed == pytest.approx(7.289, abs=5e-4)
+    assert drip.recommended_lubrication == "oil-bath"
+    assert drip.life == bath.life == bath.lubricated_life == forced.lubricated_life > 15_000.0
+    assert drip.lubricated_life == pytest.approx(0.4 * drip.life)
+    assert {one.limit: one.used for one in drip.refusals} == {
+        "lubrication": pytest.approx(15_000.0 / (0.4 * drip.life))
+    }
+    assert not bath.refusals
+
+
+def test_lubrication_is_not_counted_twice() -> None:
+    """Dry joints wear at a rate of their own, which is worse than 0.04 times the life with oil."""
+    dry, bath = (drive_of(judged(lubricated(word)), "10A-2", (19, 56)) for word in ("dry", "oil-bath"))
+    assert dry.lubricated_life == dry.life < 0.04 * bath.life
+    greased = drive_of(judged(lubricated("grease")), "10A-2", (19, 56))
+    assert greased.lubricated_life == pytest.approx(0.1 * bath.life)  # two types below a bath
+    assert greased.lubricated_life > 0.1 * greased.life
+
+
 def test_conveyor_drive(validated: Callable[..., None]) -> None:
     """ПР-25,4 on 27 and 51 teeth, 2.75 kW at 114 rpm, K_e 1.3, 30 pitches: 100 links, 769 mm.
 

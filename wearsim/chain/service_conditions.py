@@ -1,24 +1,34 @@
 """How a drive is used, in words, and the factors and the wear condition that go with it."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from wearsim.catalogue.catalogues import nearest
 from wearsim.chain.joint_pressure import JointApplication, joint_application
 from wearsim.chain.power_rating import application_factor
 from wearsim.errors import CaseError, Fault
 
-LUBRICATIONS = {
-    "drip": ("hardened, oiled", "drip"),
-    "oil-bath": ("hardened, oiled", "continuous"),
-    "forced": ("hardened, oiled", "continuous"),
-    "periodic": ("normalised, greased", "periodic"),
-    "grease": ("normalised, greased", "periodic"),
-    "dry": ("hardened, dry", "periodic"),
-}
-"""Condition of wear, and state of the GOST table of lubrication, by the word for a lubrication.
 
-That table ends with periodic lubrication: a dry joint wears more than its factor of 1.5 says.
-"""
+class Lubrication(NamedTuple):
+    """What a word for a lubrication stands for in the tables.
+
+    That of GOST ends with periodic lubrication: a dry joint wears more than its factor of 1.5 says.
+    """
+
+    wear_condition: str  # row of the table of wear conditions
+    gost: str  # state of the GOST table of lubrication
+    lubricant: str  # row of the table of lubricants
+
+
+LUBRICATIONS = {
+    "drip": Lubrication("hardened, oiled", "drip", "drip"),
+    "oil-bath": Lubrication("hardened, oiled", "continuous", "oil bath"),
+    "forced": Lubrication("hardened, oiled", "continuous", "forced"),
+    "periodic": Lubrication("normalised, greased", "periodic", "manual"),
+    "grease": Lubrication("normalised, greased", "periodic", "greased"),
+    "dry": Lubrication("hardened, dry", "periodic", "dry"),
+}
+"""What the words for a lubrication stand for."""
 
 SHOCKS = {
     "smooth": ("smooth", "steady"),
@@ -50,6 +60,7 @@ def plain_word(text: str) -> str:
 class ServiceConditions:
     """What follows from how a drive is used."""
 
+    lubrication: str  # word of `LUBRICATIONS`
     wear_condition: str  # row of the table of wear conditions
     service_factor: float  # f1 of ISO 10823, for an electric motor or another smooth driver
     joint_application: JointApplication  # factors of GOST practice, for a shaft that can be moved
@@ -104,11 +115,12 @@ def service_conditions(
         faults.append(Fault(message, "hours_per_day"))
     if faults:
         raise CaseError(faults)
-    condition, oil = LUBRICATIONS[words["lubrication"]]
+    supplied = LUBRICATIONS[words["lubrication"]]
     driven, load = SHOCKS[words["shock"]]
     shifts = next(word for most, word in SHIFTS if hours_per_day <= most)
     return ServiceConditions(
-        wear_condition=condition,
+        lubrication=words["lubrication"],
+        wear_condition=supplied.wear_condition,
         service_factor=application_factor("smooth", driven),
-        joint_application=joint_application(load, oil, shifts),
+        joint_application=joint_application(load, supplied.gost, shifts),
     )

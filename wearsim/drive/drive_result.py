@@ -303,8 +303,10 @@ class DriveLife:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What is doubtful: first the ratings that are not kept, with the loads and speeds of the driver."""
-        return (*rating_warnings(self.reference.ratings), *self.doubts)
+        """What is doubtful: first of practice, then the ratings that are not kept, as the driver has them."""
+        first = self.practice.warnings if self.practice else ()
+        others = (text for text in self.doubts if text not in first)
+        return (*first, *rating_warnings(self.reference.ratings), *others)
 
 
 def _named_fatigue(result: WearResult) -> dict[str, Life | LowerBound]:

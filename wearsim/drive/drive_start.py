@@ -63,6 +63,7 @@ def _loaded(values: Values) -> "DriveCase":
     from wearsim.drive.load_case import load_drive
 
     factors, form = use_factors(values), standard_form(chains()[values["chain"]])
+    supplied = LUBRICATIONS[values["lubrication"]]
     lengths = {"centre_distance_mm": values["centre"], "links": values["links"]}
     tables = {
         "format_version": 1,
@@ -74,7 +75,8 @@ def _loaded(values: Values) -> "DriveCase":
             "joint_application_factor": factors.joint,
         },
         "load": {"power_kW": values["power"], "speed_rpm": values["rpm"]},
-        "wear": {"condition": LUBRICATIONS[values["lubrication"]][0]},
+        "wear": {"condition": supplied.wear_condition},
+        "lubrication": {"lubricant": supplied.lubricant},
     }
     try:
         return load_drive(tables)
@@ -107,7 +109,7 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
     """Return what the template shows."""
     from wearsim.drive.read import LONGEST, SERVICE_YEARS
 
-    factors, (condition, oil) = use_factors(values), LUBRICATIONS[values["lubrication"]]
+    factors, supplied = use_factors(values), LUBRICATIONS[values["lubrication"]]
     case = drive.driver.case
     chain, driver, driven = (values[name] for name in ("chain", "driver", "driven"))
     iso, load = SHOCKS[values["shock"]]
@@ -121,7 +123,7 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
         "length": _length(values, amounts, case),
         "iso_load": iso,
         "gost_load": load,
-        "gost_lubrication": oil,
+        "gost_lubrication": supplied.gost,
         "lubrication_note": " (there is none for dry)" if values["lubrication"] == "dry" else "",
         "shifts": f"{shifts} {'shift' if shifts == 'one' else 'shifts'}",
         "factors": factors,
@@ -129,8 +131,9 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
         "power": amounts["power"],
         "rpm": amounts["rpm"],
         "lubrication": values["lubrication"],
-        "why": _WHY[condition],
-        "condition": condition,
+        "why": _WHY[supplied.wear_condition],
+        "condition": supplied.wear_condition,
+        "lubricant": supplied.lubricant,
         "hours": values["hours_per_day"],
         "horizon": min(LONGEST, SERVICE_YEARS * DAYS_OF_YEAR * values["hours_per_day"]),
         "years": SERVICE_YEARS,

@@ -153,9 +153,9 @@ def _similar(key: str, names: list[str]) -> str:
 
 
 def _closest(word: str, names: list[str]) -> str:
-    """Return the name most like a word, else the first that begins with it; empty where none does."""
-    close = difflib.get_close_matches(word, names, n=1, cutoff=0.6)
-    return next(iter([*close, *(name for name in names if name.startswith(f"{word}_"))]), "")
+    """Return the first name that begins with a word, else the one most like it; empty where none is."""
+    begun = [name for name in names if name.startswith(f"{word}_")]
+    return next(iter([*begun, *difflib.get_close_matches(word, names, n=1, cutoff=0.6)]), "")
 
 
 def line_of(text: str, key: str) -> int:

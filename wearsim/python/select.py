@@ -79,7 +79,7 @@ class SelectionResult(Answer):
         """
         wish = self.wish
         drive = self.answer.shown[row]
-        return load_drive(case_tables(drive, wish.need, wish.service.wear_condition, wish.hours_per_day))
+        return load_drive(case_tables(drive, wish.need, wish.hours_per_day))
 
     def tables(self) -> "dict[str, pd.DataFrame]":
         """Return the drives.

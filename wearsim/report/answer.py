@@ -31,8 +31,8 @@ JUMPING = "min_slack_tension_N"
 REMOVED = "Removed"
 """Label of a check of the run, which ``--explain`` prints."""
 
-SAFE = "safe"
-"""What is said of a chain that does not jump by far."""
+SAFE = "no risk"
+"""What is said of a chain that is far from jumping."""
 
 _FAR, _SAFE = 1000.0, 2.0
 """Margins of jumping of which no more is told, and from which on a chain is called safe."""
@@ -98,9 +98,9 @@ def jumping(needed: float, limit: float, whose: str = "there") -> str:
     Examples
     --------
     >>> jumping(5.0, 60.0)
-    'jumping: safe (slack tension: 5 N needed, 60 N there)'
+    'jumping: no risk (slack tension: 5 N needed, 60 N there)'
     >>> jumping(4e-6, 60.0)
-    'jumping: safe (slack tension: below 0.06 N needed, 60 N there)'
+    'jumping: no risk (slack tension: below 0.06 N needed, 60 N there)'
     """
     amount = slack_needed(needed, limit)
     margin = jumping_margin(needed, limit)
@@ -108,12 +108,12 @@ def jumping(needed: float, limit: float, whose: str = "there") -> str:
 
 
 def jumping_margin(needed: float, limit: float) -> str:
-    """Return the margin against jumping: safe from twice the slack tension on that is needed.
+    """Return the margin against jumping: no risk from twice the needed slack tension on.
 
     Examples
     --------
     >>> jumping_margin(4e-6, 60.0), jumping_margin(50.0, 56.0), jumping_margin(60.0, 60.0)
-    ('safe', '12 % above what is needed', 'no margin')
+    ('no risk', '12 % above what is needed', 'no margin')
     """
     if needed >= limit * (1.0 - 1e-9):
         return "no margin"

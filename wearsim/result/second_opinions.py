@@ -45,6 +45,12 @@ class SecondOpinions:
         hours = [rule.hours for rule in self.rules if rule.hours is not None]
         return (min(hours), max(hours)) if hours else None
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What practice warns of: a poorer lubrication first, and a joint pressure outside of it."""
+        outside = f"outside any published practice: {self.outside}" if self.outside else ""
+        return tuple(filter(None, (self.lubrication, outside)))
+
     def within(self, low: float, high: float) -> bool:
         """Return whether the mean of the rules lies in the band of a computed life [h]."""
         return self.mean_hours is None or low <= self.mean_hours <= high

@@ -53,7 +53,8 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     contact = drive.contact(case)
     law, stop_limits, horizon, clock = wrap_problem(case, contact)
     ratings, practice = drive.ratings(case), chain_practice(case)
-    warnings = [*case.warnings, *rating_warnings(ratings), *practice_warnings(practice)]
+    of_practice = practice.warnings if practice else ()
+    warnings = [*of_practice, *case.warnings, *rating_warnings(ratings)]
     run, error = _run(case, contact, law, stop_limits, horizon, clock, warnings, progress)
     warnings += _gave_up(run, horizon)
     constant = run.cycles
@@ -117,14 +118,6 @@ def chain_practice(case: Case) -> SecondOpinions | None:
     """Return what published rules say of the chain of a case; None where it transmits nothing."""
     seen = wrap_of(case).practice(case)
     return None if seen is None else second_opinions(seen)
-
-
-def practice_warnings(found: SecondOpinions | None) -> list[str]:
-    """Return what practice warns of: a joint pressure outside of it, and a poorer lubrication."""
-    if found is None:
-        return []
-    outside = f"outside any published practice: {found.outside}" if found.outside else ""
-    return [text for text in (outside, found.lubrication) if text]
 
 
 def wrap_problem(

@@ -136,8 +136,8 @@ def _joint_friction(case: ChainRecord) -> float | None:
     given = (case.tables.drive or DriveTable()).joint_friction
     if given is not None:
         case.assumptions.append(
-            f"coefficient of friction of the joints {given:g}: it makes heat of power, and moves "
-            "no tension but beyond idlers"
+            f"coefficient of friction of the joints {given:g}: it affects the efficiency, and "
+            "no tension except after idlers"
         )
     return given
 

@@ -256,9 +256,9 @@ class WrapContact(RestingContact):
         sliding = self.sliding
         return [
             *self.mechanism.assumptions(),
-            f"a roller slides {sliding.fraction:g} of the articulation of "
-            f"{math.degrees(self.mechanism.pitch_angle):.3g} degrees on its seat at the first and the "
-            f"last tooth, and {sliding.path_fraction:g} of its way along the flank",
+            f"slip of a roller on its seat at the first and the last tooth: {100.0 * sliding.fraction:g} % "
+            f"of the articulation angle of {math.degrees(self.mechanism.pitch_angle):.3g} degrees; along the "
+            f"flank: {100.0 * sliding.path_fraction:g} % of its way",
             "wear from the pressure of the roller on the worn gap as an elastic foundation, the pressures "
             "shown from half-space contact; "
             + ("rollers wear all round" if self.roller_area_ratio else "rollers do not wear"),

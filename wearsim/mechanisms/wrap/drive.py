@@ -17,6 +17,7 @@ from wearsim.chain.loop_forces import LoopForces
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.practice_drive import MOST_STRANDS, PracticeDrive
 from wearsim.chain.selection import RatedDrive, RatingFinding, overload_fault
+from wearsim.chain.service_conditions import LUBRICATIONS
 from wearsim.contact.stop_limits import StopLimit, rising
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.blank import blank_area, gap_space
@@ -504,12 +505,7 @@ def over_pins(path: RollerPath, x: Vector, y: Vector, gaps: int) -> float:
 
 
 _SUPPLY = {
-    "drip": "drip",
-    "oil bath": "oil-bath",
-    "forced": "forced",
-    "manual": "periodic",
-    "greased": "grease",
-    "dry": "dry",
+    **{supplied.lubricant: word for word, supplied in LUBRICATIONS.items()},
     "normalised, greased": "periodic",
     "hardened, dry": "dry",
     "unhardened, dry": "dry",

@@ -339,7 +339,7 @@ class WrapMechanism:
             else "no friction between rollers and teeth"
         )
         return [
-            "rollers sit where the potential energy of the elastic chain is least; teeth are rigid, all "
+            "roller positions minimise the elastic energy of the chain; teeth are rigid, all "
             "gaps alike, strands straight and at rest (no vibration, no impact)",
             friction,
         ]

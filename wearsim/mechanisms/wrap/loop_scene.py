@@ -115,11 +115,11 @@ def _notes(forces: LoopForces) -> tuple[str, ...]:
     loop = forces.loop
     return (
         "; ".join(
-            f"{wheel.name} wrapped over {math.degrees(angle):.1f} degrees"
+            f"wrap angle of {wheel.name} {math.degrees(angle):.1f} degrees"
             for wheel, angle in zip(loop.wheels, loop.wrap_angles, strict=True)
         ),
         "; ".join(
             f"{loop.span_name(i)} {grouped(float(tension))} N" for i, tension in enumerate(forces.tensions)
         ),
-        "drawn without sag; tensions at the highest load, without what the chain's speed adds",
+        "sag not drawn; tensions at the highest load, without centrifugal tension",
     )

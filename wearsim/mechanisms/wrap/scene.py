@@ -118,7 +118,7 @@ def _alt(drive: "WrapDrive", layout: DriveLayout) -> str:
         f"Two sprockets to scale, a driver of {layout.teeth_1} teeth and a driven one of "
         f"{layout.teeth_2}, {layout.centre_distance:.1f} mm apart, and the chain of {layout.links} "
         f"links around them; the sprocket that wears, the {'driver' if drive.driver else 'driven one'}, "
-        f"is drawn with its teeth and wrapped over {math.degrees(drive.wrap_angle):.1f} degrees."
+        f"is drawn with its teeth; its wrap angle is {math.degrees(drive.wrap_angle):.1f} degrees."
     )
 
 
@@ -128,7 +128,7 @@ def _notes(drive: "WrapDrive", layout: DriveLayout) -> tuple[str, ...]:
         f"driver {layout.teeth_1} teeth, driven {layout.teeth_2} teeth, ratio {layout.ratio:.4g}; "
         f"{layout.links} links, pitch {layout.pitch:g} mm",
         f"centre distance {layout.centre_distance:.1f} mm, taut; drawn level and without sag",
-        f"the sprocket that wears, {worn}, is wrapped over {math.degrees(drive.wrap_angle):.1f} degrees",
+        f"the sprocket that wears, {worn}, has a wrap angle of {math.degrees(drive.wrap_angle):.1f} degrees",
         f"slack strand {grouped(drive.slack)} N, tight strand {grouped(drive.heaviest.tension)} N",
     )
 

@@ -117,7 +117,7 @@ def layout_text(drive: DriveCase) -> str:
         ),
         row(
             "Losses",
-            f"joints turn {found['friction_heat_W']:.3g} W into heat: efficiency "
+            f"joint friction {found['friction_heat_W']:.3g} W: efficiency "
             f"{100.0 * found['efficiency']:.2f} %",
         ),
     ]

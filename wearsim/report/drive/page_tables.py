@@ -135,9 +135,7 @@ def _take_up(layout: DriveLayout | LoopLayout, limit: float) -> list[tuple[str, 
     if isinstance(layout, DriveLayout):
         worn = layout_with_links(layout.pitch * (1.0 + limit), layout.teeth_1, layout.teeth_2, layout.links)
         more = worn.centre_distance - layout.centre_distance
-        return [
-            ("take-up", f"0 mm with a new chain, {more:.2f} mm more between the centres with one {grown}")
-        ]
+        return [("take-up", f"nominal centre distance with a new chain, +{more:.2f} mm with one {grown}")]
     take_up = layout.drive.take_up
     if take_up is None:
         return [("take-up", "none")]
@@ -186,10 +184,10 @@ def loss_text(drive: DriveCase) -> str:
     """Return what holds beside the tensions, and what the joints lose."""
     found = layout_json(drive)
     return (
-        f"The chain's own speed adds {grouped(found['centrifugal_tension_N'], 3)} N to every span, which "
-        f"loads joints but no shaft. Joints turn {found['friction_heat_W']:.3g} W into heat: efficiency "
-        f"{100.0 * found['efficiency']:.2f} %. Directions count from x (to the right) towards y (upwards); a "
-        "power below 0 is taken from the chain. All at the highest load."
+        f"Centrifugal tension: {grouped(found['centrifugal_tension_N'], 3)} N in every span; it loads joints "
+        f"but no shaft. Joint friction loss: {found['friction_heat_W']:.3g} W, efficiency "
+        f"{100.0 * found['efficiency']:.2f} %. Directions count from x (to the right) towards y (upwards); "
+        "a negative power is an output. All values at the highest load."
     )
 
 
@@ -278,5 +276,5 @@ def plan_table(plan: DrivePlan) -> PageTable:
         )
         for stop in plan.stops
     )
-    head = ("at", *measures, "replace", "chain comes off")
+    head = ("at", *measures, "replace", "chain removed")
     return PageTable("Replacements", head, rows, (len(head) - 2,))

@@ -11,6 +11,7 @@ from wearsim.study.remaining.dated_rows import (
     DATE,
     DatedRows,
     ServiceTime,
+    in_unit,
     number,
     read_dated_rows,
     service_time,
@@ -108,7 +109,8 @@ def chain_cells(quantity: str) -> Rules:
     }
     links = (
         lambda text: 0.0 < number(text) <= 1e5 and number(text) % 2.0 == 0.0,
-        "must be an even number of links from pin to pin: inner and outer links grow unlike",
+        "must be an even number of links from pin to pin, as inner and outer links grow differently: measure "
+        "over one link fewer",
     )
     result = (
         lambda text: text in (GO, NO_GO),
@@ -182,6 +184,8 @@ def _bad_cells(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
             text = cells.get(name, "")
             if not holds(text):
                 hint = ": wearsim calibrate takes readings of the teeth" if text in _OF_TEETH else ""
+                if name == "value" and quantity == LENGTH:
+                    hint = in_unit(text, "mm")
                 yield Fault(f"{must} (got {text!r}){hint}", name, table.file, line)
 
 

@@ -99,7 +99,7 @@ def contradictions(readings: Sequence[WearReading]) -> list[Contradiction]:
 
 
 def _apart(one: WearReading, other: WearReading) -> float:
-    """Return by how many errors the factors that two readings ask for lie apart; 0 where they overlap."""
+    """Return by how many errors the factors that two readings imply lie apart; 0 where they overlap."""
     gap = max(one.low / one.predicted - other.high / other.predicted, 0.0) + max(
         other.low / other.predicted - one.high / one.predicted, 0.0
     )
@@ -132,9 +132,9 @@ TEETH, JOINTS = "the wear coefficient of the case", "the joints' wear coefficien
 
 
 def band_warning(factor: float, band: WearBand, coefficient: str) -> Iterator[str]:
-    """Say where readings ask for a coefficient outside of the band of the case."""
+    """Say where readings imply a coefficient outside of the band of the case."""
     if not band.low <= factor <= band.high:
         yield (
-            f"the readings ask for {factor:.3g} times {coefficient}, outside its band of {band.low:.3g} to "
+            f"the readings imply {factor:.3g} times {coefficient}, outside its band of {band.low:.3g} to "
             f"{band.high:.3g}: check the readings and the load"
         )

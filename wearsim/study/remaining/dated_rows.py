@@ -10,6 +10,7 @@ from typing import Any
 
 from wearsim.errors import CaseError, Fault
 from wearsim.input.csv_tables import header_faults
+from wearsim.input.units import convert
 
 HOURS, KM, DATE = "time_hours", "distance_km", "date"
 TIMES = (HOURS, KM, DATE)
@@ -68,6 +69,8 @@ class ServiceTime:
         when = ""
         if self.column == DATE and self.start is not None and hours < 0.0:
             when = f", not before service.start_date = {self.start}, when it was new"
+        if self.column != DATE:
+            when = in_unit(text, "km" if self.column == KM else "h")
         return f"must be {self.must} (got {text!r}){when}"
 
     @property
@@ -97,6 +100,20 @@ def number(text: str) -> float:
         return math.nan
 
 
+def in_unit(text: str, unit: str) -> str:
+    """Return what to write in the place of a number with a unit; empty where a text is none.
+
+    Examples
+    --------
+    >>> in_unit("1000 miles", "km"), in_unit("far", "km")
+    (': write 1609.344, in km', '')
+    """
+    try:
+        return f": write {convert(text, unit):.10g}, in {unit}"
+    except ValueError:
+        return ""
+
+
 def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]) -> DatedRows:
     """Read the cells of a table with one column of times; lines that begin with ``#`` are left out."""
     try:
@@ -114,10 +131,12 @@ def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]
     if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
         text = "cells must be separated by commas, with points in numbers: export it as such"
         raise CaseError([Fault(text, "", str(path), head)])
-    times = [name for name in TIMES if name in names] or [HOURS]
-    faults = [
-        Fault(text, "", str(path), head) for text in header_faults(names, [*times, *required], optional)
-    ]
+    times = [name for name in TIMES if name in names]
+    wrong = header_faults(names, [*times, *required], optional)
+    if not times:
+        others = f"{KM} (1.609344 times the miles) or {DATE}"
+        wrong.insert(0, f"column {HOURS!r} is missing, or {others} in its place")
+    faults = [Fault(text, "", str(path), head) for text in wrong]
     if len(times) > 1:
         text = f"must tell the time in one column, but holds {' and '.join(times)}: keep one"
         faults.append(Fault(text, "", str(path), head))

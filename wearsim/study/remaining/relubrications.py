@@ -80,13 +80,25 @@ def event_faults(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
             continue
         for name, text in cells.items():
             if name not in (table.time, "quantity") and text:
-                yield Fault(f"must be empty for {event} (got {text!r})", name, table.file, line)
+                yield Fault(
+                    f"must be empty for {event} (got {text!r}){_instead(event, name)}", name, table.file, line
+                )
         wrong = time.fault(cells[table.time])
         if wrong:
             yield Fault(wrong, table.time, table.file, line)
         elif event == NEW and (number or time.hours(cells[table.time]) > 0.0):
-            text = f"{NEW} must be the first row, at time 0: begin a file for each part"
+            text = (
+                f"{NEW} must be the first row, at time 0: begin a file for each part, and subtract the "
+                "odometer's or hour meter's reading at its start from every time"
+            )
             yield Fault(text, "quantity", table.file, line)
+
+
+def _instead(event: str, column: str) -> str:
+    """Name the way round for the length of a new chain."""
+    if (event, column) != (NEW, "value"):
+        return ""
+    return ": leave the length of the new chain out, and give later ones as elongation_percent over it"
 
 
 def relubrication_log(table: DatedRows, time: ServiceTime) -> RelubricationLog:

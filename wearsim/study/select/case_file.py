@@ -4,14 +4,13 @@ import math
 from typing import Any
 
 from wearsim.chain.selection import elongation_limit
+from wearsim.chain.service_conditions import LUBRICATIONS
 from wearsim.chain.standard_teeth import standard_form
 from wearsim.study.select.model import SAG, CandidateDrive
 from wearsim.study.select.requirements import DriveRequirements
 
 
-def case_tables(
-    drive: CandidateDrive, need: DriveRequirements, condition: str, hours_per_day: float
-) -> dict[str, Any]:
+def case_tables(drive: CandidateDrive, need: DriveRequirements, hours_per_day: float) -> dict[str, Any]:
     """Return the tables of a case with both sprockets of a drive.
 
     Parameters
@@ -19,9 +18,7 @@ def case_tables(
     drive : CandidateDrive
         Chain, teeth, links.
     need : DriveRequirements
-        Load and factors.
-    condition : str
-        Row of the table of wear conditions: of the teeth and, with their band, of the joints.
+        Load, factors and lubrication.
     hours_per_day : float
         Running hours of a day.
     """
@@ -43,7 +40,12 @@ def case_tables(
             "joint_application_factor": _digits(need.joint_application_factor),
         },
         "load": {"power_kW": need.power, "speed_rpm": need.speed},
-        "wear": {"condition": condition},
+        "wear": {"condition": need.joints.condition},
+        **(
+            {"lubrication": {"lubricant": LUBRICATIONS[need.lubrication].lubricant}}
+            if need.lubrication
+            else {}
+        ),
         # Rounded down, so that it stays within the rule.
         "stop": {"elongation_percent": math.floor(1e4 * limit + 1e-6) / 1e4},
         "service": {"hours_per_day": hours_per_day},

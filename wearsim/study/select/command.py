@@ -225,7 +225,7 @@ def _verified(answer: "SelectionAnswer", wish: "Wish", count: int) -> list[dict[
 
     found = []
     for drive in answer.shown[:count]:
-        tables = case_tables(drive, wish.need, wish.service.wear_condition, wish.hours_per_day)
+        tables = case_tables(drive, wish.need, wish.hours_per_day)
         title = str(tables["title"])
         with working(f"wearing {title}") as report_progress:
             try:
@@ -249,7 +249,7 @@ def _write(
     if out is not None:
         from wearsim.study.select.case_file import case_tables, case_text
 
-        tables = case_tables(answer.shown[0], wish.need, wish.service.wear_condition, wish.hours_per_day)
+        tables = case_tables(answer.shown[0], wish.need, wish.hours_per_day)
         command = shlex.join(["wearsim", *sys.argv[1:]]).replace("\n", " ")
         write_content(out, case_text(tables, command).encode(), force)
     if csv_file is not None:

@@ -9,6 +9,7 @@ from itertools import product
 from wearsim.catalogue.catalogues import Chain, materials
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links, least_centre
 from wearsim.chain.joint_wear import JointState, elongation_per_loop, joint_band, joint_law
+from wearsim.chain.recommended_lubrication import lubrication_life_factor, recommended_lubrication
 from wearsim.chain.selection import RatedDrive, RatingFinding, assess, deciding, elongation_limit
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension, shaft_load
 from wearsim.chain.standard_teeth import standard_tip_diameter
@@ -26,7 +27,8 @@ LEAST_WRAP = math.radians(120.0)
 SAG = 0.02
 """Sag of the slack span over its length; a case of wearsim has the same."""
 
-LIFE, CENTRE, DIAMETER, WRAP = "chain life", "centre distance", "largest diameter", "wrap angle"
+LIFE, LUBRICATION = "chain life", "lubrication"
+CENTRE, DIAMETER, WRAP = "centre distance", "largest diameter", "wrap angle"
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,7 @@ class CandidateDrive:
     life: float  # of the chain by wear of its joints, at their typical wear rate [h]
     life_low: float  # at the high end of it [h]
     life_high: float  # at the low end of it [h]
+    lubricated_life: float  # by the published factor of a poorer lubrication than recommended [h]
     tip_diameter: float  # of the larger sprocket [mm]
     mass: float  # of chain and blanks [kg]
     cost: float | None  # of both, None without prices
@@ -78,6 +81,11 @@ class CandidateDrive:
     def chain_speed(self) -> float:
         """Mean speed of the chain [m/s]."""
         return self.layout.teeth_1 * self.layout.pitch * self.speed / 6e4
+
+    @property
+    def recommended_lubrication(self) -> str:
+        """Poorest lubrication that is recommended at its pitch and speed."""
+        return recommended_lubrication(self.chain.pitch, self.chain_speed)
 
     @property
     def shaft_load(self) -> float:
@@ -241,6 +249,21 @@ def chain_life(
     return elongation_limit(max(teeth)) / (growth * loops)
 
 
+def lubricated_life(
+    need: DriveRequirements, chain: Chain, layout: DriveLayout, pressures: tuple[float, float], life: float
+) -> float:
+    """Return the life of a chain by the published factor of a lubrication below the recommended one.
+
+    The factor is on the life with oil as recommended. A condition without oil counts some of it by its
+    own rate, so that the shorter life holds: nothing is counted twice.
+    """
+    if not need.lubrication:
+        return life
+    recommended = recommended_lubrication(chain.pitch, layout.teeth_1 * chain.pitch * need.speed / 6e4)
+    factor = lubrication_life_factor(need.lubrication, recommended).factor
+    return life if factor >= 1.0 else min(life, factor * chain_life(need.oiled, chain, layout, pressures))
+
+
 def _small_speed(need: DriveRequirements, layout: DriveLayout) -> float:
     """Return the speed of the smaller sprocket, whose chain speed is that of either one [rpm]."""
     return need.speed * layout.teeth_1 / min(layout.teeth_1, layout.teeth_2)
@@ -272,6 +295,7 @@ def _judged(
     tight = rated.pull + slack + centrifugal
     pressures = (tight / chain.bearing_area, (slack + centrifugal) / chain.bearing_area)
     life = chain_life(need, chain, layout, pressures)
+    lubricated = lubricated_life(need, chain, layout, pressures, life)
     state = JointState(pressures[0], rated_speed, chain.pitch)
     band = joint_band(joint_law(need.joints), need.joints, state)
     tip = standard_tip_diameter(chain, large)
@@ -288,6 +312,7 @@ def _judged(
         life=life,
         life_low=life / band.high,
         life_high=life / band.low,
+        lubricated_life=lubricated,
         tip_diameter=tip,
         mass=links + blanks,
         cost=None if price is None else price.of(layout.links * layout.pitch, blanks),
@@ -295,6 +320,7 @@ def _judged(
             *_space_refusals(need, layout, tip),
             *(Refusal(one.name, one.used) for one in deciding(findings) if not one.ok),
             *([Refusal(LIFE, need.hours / life)] if life < need.hours else []),
+            *([Refusal(LUBRICATION, need.hours / lubricated)] if lubricated < min(life, need.hours) else []),
         ),
     )
 

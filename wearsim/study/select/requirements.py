@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 from wearsim.catalogue.catalogues import USUAL_CONDITION, WearCondition, wear_conditions
@@ -70,6 +71,7 @@ class DriveRequirements:
     joint_application_factor: float = 1.0  # K_e on the joint pressure
     # how pin and bush wear
     joints: WearCondition = field(default_factory=lambda: wear_conditions()[USUAL_CONDITION])
+    lubrication: str = ""  # word for the supply; empty: as recommended
     centre: float | None = None  # distance of the shafts [mm]
     centre_min: float | None = None  # bounds of it where it may be chosen [mm]
     centre_max: float | None = None
@@ -85,6 +87,11 @@ class DriveRequirements:
         faults = requirement_faults(vars(self))
         if faults:
             raise CaseError(faults)
+
+    @cached_property
+    def oiled(self) -> "DriveRequirements":
+        """The same with joints oiled as recommended, which published factors of a lubrication refer to."""
+        return replace(self, joints=wear_conditions()[USUAL_CONDITION], lubrication="")
 
     def allows(self, small: int, large: int) -> bool:
         """Return whether two numbers of teeth give the ratio within its tolerance."""

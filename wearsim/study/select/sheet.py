@@ -27,7 +27,7 @@ from wearsim.study.select.wish import Wish
 
 _HEAD = (
     *("chain", "strands", "teeth", "ratio", "links", "centre mm", "m/s", "kg", "cost"),
-    *("chain life h", "low to high", "most used rating", "margin %", "shaft N", "tip mm"),
+    *("chain life h", "low to high", "lubrication", "most used rating", "margin %", "shaft N", "tip mm"),
 )
 _SHOWN_SKIPPED = 4
 
@@ -95,6 +95,8 @@ def drive_columns(drive: CandidateDrive) -> dict[str, Any]:
         "chain_life_hours": drive.life,
         "chain_life_hours_low": drive.life_low,
         "chain_life_hours_high": drive.life_high,
+        "recommended_lubrication": drive.recommended_lubrication,
+        "lubricated_life_hours": drive.lubricated_life,
         "most_used_rating": most.name,
         "rating_margin_percent": 100.0 * (1.0 - most.used),
         "shaft_load_N": drive.shaft_load,
@@ -167,11 +169,19 @@ def _cells(drive: CandidateDrive) -> list[str]:
         "" if drive.cost is None else f"{drive.cost:.2f}",
         grouped(drive.life),
         f"{grouped(drive.life_low, 3)} to {grouped(drive.life_high, 3)}",
+        _lubrication(drive),
         most.name,
         f"{100.0 * (1.0 - most.used):.1f}",
         f"{drive.shaft_load:.0f}",
         f"{drive.tip_diameter:.1f}",
     ]
+
+
+def _lubrication(drive: CandidateDrive) -> str:
+    """Name the recommended lubrication and the hours with a poorer one; empty where it is no poorer."""
+    if drive.lubricated_life == drive.life:
+        return ""
+    return f"below {drive.recommended_lubrication}: {grouped(drive.lubricated_life)} h"
 
 
 def _table(rows: list[list[str]]) -> list[str]:
@@ -196,7 +206,7 @@ def _passed(answer: SelectionAnswer) -> str:
 def _refused(answer: SelectionAnswer) -> str:
     counts = refused_by(answer.drives)
     text = ", ".join(f"{grouped(count)} by {limit}" for limit, count in counts.items())
-    return f"{text}; a drive may be refused by several" if len(counts) > 1 else text or "none"
+    return f"{text}; a drive can fail several checks" if len(counts) > 1 else text or "none"
 
 
 def _nearest(answer: SelectionAnswer) -> str:
@@ -209,7 +219,10 @@ def _nearest(answer: SelectionAnswer) -> str:
 
 
 def _skipped(skipped: Mapping[str, Sequence[str]]) -> str:
-    return "; ".join(f"{len(names)} chains, {reason} ({_some(names)})" for reason, names in skipped.items())
+    return "; ".join(
+        f"{len(names)} {'chain' if len(names) == 1 else 'chains'}, {reason} ({_some(names)})"
+        for reason, names in skipped.items()
+    )
 
 
 def _some(names: Sequence[str]) -> str:
@@ -230,9 +243,19 @@ def _assumptions(answer: SelectionAnswer) -> tuple[str, ...]:
         f"chain life by wear of its joints, condition {need.joints.condition!r} "
         f"({need.joints.joint_typical:g} mm2/N at {need.joints.joint_reference_pressure:g} MPa and "
         f"{need.joints.joint_reference_speed:g} rpm), to 3 % or 200 % over the larger number of teeth",
+        *_lubrication_assumptions(need),
         f"strands share the load alike; slack span sags by {100 * SAG:g} %",
         centre,
         f"at most {MOST_TEETH} teeth and at least {math.degrees(LEAST_WRAP):.0f} degrees of wrap, as "
         "handbooks say",
         "how long the teeth live is not calculated here: --verify N, or wearsim life with the case of --out",
+    )
+
+
+def _lubrication_assumptions(need: DriveRequirements) -> tuple[str, ...]:
+    if not need.lubrication:
+        return ()
+    return (
+        f"lubrication {need.lubrication!r}: where pitch and chain speed call for a better one, the chain "
+        "must last the hours with the published factor on its life as well",
     )

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from wearsim.catalogue.catalogues import wear_conditions
-from wearsim.chain.service_conditions import ServiceConditions, service_conditions
+from wearsim.chain.service_conditions import service_conditions
 from wearsim.errors import CaseError, Fault
 from wearsim.study.select.model import Price
 from wearsim.study.select.price_file import read_prices
@@ -41,7 +41,6 @@ class Wish:
     """What was asked for."""
 
     need: DriveRequirements
-    service: ServiceConditions
     hours_per_day: float
     use: str  # in words
     prices: dict[str, Price] | None
@@ -71,9 +70,10 @@ def read_wish(texts: Mapping[str, str | None], price: Path | None) -> Wish:
         service_factor=service.service_factor,
         joint_application_factor=service.joint_application_factor,
         joints=wear_conditions()[service.wear_condition],
+        lubrication=service.lubrication,
     )
     use = f"{words[0]}, {words[1]} load, {hours_per_day:g} h a day"
-    return Wish(need, service, hours_per_day, use, prices)
+    return Wish(need, hours_per_day, use, prices)
 
 
 def _by_option(faults: Sequence[Fault]) -> list[Fault]:
