@@ -50,17 +50,17 @@ class SecondOpinions:
         return self.mean_hours is None or low <= self.mean_hours <= high
 
 
-def second_opinions(drive: "PracticeDrive") -> SecondOpinions:
-    """Return what the published rules say of a drive."""
+def second_opinions(*duty: "PracticeDrive") -> SecondOpinions:
+    """Return what the published rules say of a drive, given once for each block of its duty."""
     # Read by a chain's life only: a strand starts without the tables of the rules.
-    from wearsim.chain.practice import geometric_mean, opinions, outside_practice
+    from wearsim.chain.practice import fastest, geometric_mean, opinions, outside_practice
 
-    found = opinions(drive)
+    found = opinions(*duty)
     return SecondOpinions(
         tuple(RuleLife(one.rule.name, one.hours, one.rule.trust, one.rule.source, one.note) for one in found),
         geometric_mean(found),
-        outside_practice(drive),
-        _lubrication(drive),
+        outside_practice(*duty),
+        _lubrication(fastest(duty)),
     )
 
 
