@@ -5,7 +5,7 @@ import pytest
 import wearsim
 from wearsim.chain.practice import opinions
 from wearsim.result.second_opinions import SecondOpinions
-from wearsim.simulation.wrap_life import chain_practice
+from wearsim.simulation.wrap_life import chain_practice, practice_warnings
 
 DRIVE = {
     "format_version": 1,
@@ -110,3 +110,12 @@ def test_impact_takes_the_hours_of_the_whole_duty():
     both = impact(case(duty=blocks((0.05, fast), (0.95, slow)), chain=small))
     assert both.hours == pytest.approx(1 / (0.05 / one.hours + 0.95 / other.hours), rel=1e-9)
     assert (both.used, one.hours) == (one.used, impact(case(duty=blocks((1.0, fast)), chain=small)).hours)
+
+
+def test_the_joints_have_the_lubrication_of_their_own_condition():
+    oiled, soil = "hardened, oiled", "soil-contaminated"
+    clean = hours(practice())
+    assert hours(practice(wear={"condition": soil}, joint={"condition": oiled})) == clean
+    dirty = practice(joint={"condition": soil})
+    assert hours(dirty) == pytest.approx({name: 0.008 * found for name, found in clean.items()})
+    assert any(text.startswith("lubrication 'dry'") for text in practice_warnings(dirty))

@@ -529,8 +529,10 @@ _SUPPLY = {
 
 
 def supply_in_words(case: Case) -> tuple[str, str]:
-    """Return the word for the supply of lubricant, empty where it is not known, and for the surroundings."""
-    lubrication, condition = case.inputs.get("lubrication") or {}, case.inputs["wear"].get("condition", "")
+    """Return the words for the supply of the joints, empty where it is not known, and the surroundings."""
+    lubrication = case.inputs.get("lubrication") or {}
+    of_joints = (case.inputs.get("joint") or {}).get("condition")
+    condition = of_joints or case.inputs["wear"].get("condition", "")
     supplied = _SUPPLY.get(lubrication.get("lubricant") or condition, "")
     soil = condition == "soil-contaminated" or lubrication.get("environment") == "soil"
     return supplied, "mud" if soil else lubrication.get("environment", "clean")
