@@ -3,8 +3,20 @@
 import pytest
 
 import wearsim
-from wearsim.chain.practice import opinions
-from wearsim.result.second_opinions import SecondOpinions
+from wearsim.chain.practice import opinions, outside_practice, pressure_velocity
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
+from wearsim.report.answer import overload_text
+from wearsim.report.drive.drive_text import drive_text
+from wearsim.result.second_opinions import (
+    SecondOpinions,
+    opinions_json,
+    practice_text,
+    read_opinions,
+    rule_rows,
+    second_opinions,
+    span_text,
+)
 from wearsim.simulation.wrap_life import chain_practice, practice_warnings
 
 DRIVE = {
@@ -94,7 +106,7 @@ def test_lubrication_is_judged_by_the_fastest_block():
     drip = {"lubricant": "drip"}
     assert practice(slow, lubrication=drip).lubrication == ""
     found = practice(duty=blocks((0.5, FULL), (0.5, slow)), lubrication=drip)
-    assert "give 0.4 times the life" in found.lubrication
+    assert found.lubrication_factor == 0.4
     assert "'oil-bath' is recommended at 1.35 m/s" in found.lubrication
 
 
@@ -119,3 +131,74 @@ def test_the_joints_have_the_lubrication_of_their_own_condition():
     dirty = practice(joint={"condition": soil})
     assert hours(dirty) == pytest.approx({name: 0.008 * found for name, found in clean.items()})
     assert any(text.startswith("lubrication 'dry'") for text in practice_warnings(dirty))
+
+
+def test_a_better_lubrication_is_said_and_warned_of_by_nobody():
+    """0.9 m/s ask for drip; a bath there gives 1.5 times the hours of the rules."""
+    slow = {"power_kW": 1, "speed_rpm": 200}
+    plain, bath = practice(slow), practice(slow, lubrication={"lubricant": "oil bath"})
+    assert hours(bath) == pytest.approx({name: 1.5 * found for name, found in hours(plain).items()})
+    assert ", times 1.5 for lubrication and surroundings" in practice_text(bath)
+    assert "'drip' is recommended" in opinions_json(bath)["lubrication"]
+    assert practice_warnings(bath) == []
+    assert "times" not in practice_text(plain)
+
+
+def test_shocks_of_the_rules_are_said():
+    shocks = practice(drive={"service_factor": 2})
+    assert hours(shocks)["rating rule"] == pytest.approx(hours(practice())["rating rule"] / 8)
+    assert "with shocks f1 = 2, which the computed life leaves out" in practice_text(shocks)
+    assert "shocks" not in practice_text(practice())
+
+
+def test_hours_that_nobody_has_seen_are_a_bound(drive):
+    light = second_opinions(drive(pull=300.0))
+    assert {told for _, told, _, _ in rule_rows(light)[:-1]} == {"> 100 000 h"}
+    assert practice_text(light).startswith("> 100 000 h by 7 published rules")
+    assert "wear is not the end of this chain" in practice_text(light)
+    assert light.within(50_000.0, 1.1e5) and light.within(2e5, 2e5)
+    assert not light.within(50_000.0, 9e4)
+
+
+def test_pressure_times_speed_stands_with_the_rules(drive):
+    """3750 N on 89.3 mm2 at 21 19.05 mm 120 rpm; four times as fast, above both limits."""
+    value = 3750 / 89.3 * 21 * 19.05e-3 * 120 / 60
+    found = second_opinions(drive(pull=3750.0))
+    assert found.pressure_velocity == pytest.approx(value)
+    assert rule_rows(found)[-1][3].startswith("33.6 MPa m/s, within the 110 to 130")
+    assert opinions_json(found)["pressure_velocity_MPa_m_per_s"] == pytest.approx(value)
+    assert pressure_velocity(drive(), drive(pull=3750.0, speed=480.0)) == pytest.approx(4 * value)
+    assert "BEYOND" in rule_rows(second_opinions(drive(speed=480.0)))[-1][3]
+
+
+def test_second_opinions_come_back_from_their_file():
+    found = practice(drive={"service_factor": 2}, lubrication={"lubricant": "forced"})
+    assert read_opinions(opinions_json(found)) == found
+
+
+def test_the_pressure_that_counts_is_named_where_k_e_alone_doubles_it():
+    """2.25 times the pressure of the pull is above twice [p], the pressure itself is not."""
+    pressing = {"tension_N": 2100, "speed_rpm": 300}
+    loaded = case(pressing, drive={"joint_application_factor": 2.25})
+    result = wearsim.simulate(loaded)
+    (rating,) = [one for one in result.ratings if one.name == "joint pressure"]
+    assert rating.used > 2.0 and not outside_practice(*loaded.drive.practice(loaded))
+    assert f"without K_e {100 * rating.used / 2.25:.2f} %, which counts" in overload_text(result)
+
+
+def test_a_whole_drive_names_shocks_where_the_rules_differ():
+    """Five times the pull, 125 times the hours by the cube: far below the band of the life."""
+    document = {
+        **{key: DRIVE[key] for key in ("format_version", "chain", "wear", "run")},
+        "sprocket": [
+            {"name": name, "teeth": teeth, "profile": "iso606", "nodes": 41}
+            for name, teeth in (("a", 17), ("b", 34))
+        ],
+        "mechanism": {"phases": 1},
+        "drive": {"centre_distance_mm": 640, "service_factor": 5},
+        "load": FULL,
+    }
+    found = drive_life(load_drive(document))
+    assert found.practice is not None and found.practice.span is not None
+    (line,) = [line for line in drive_text(found, "two.toml").splitlines() if "Band" in line]
+    assert f"; by published rules with f1 = 5 {span_text(found.practice.span)}" in line

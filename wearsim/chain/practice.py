@@ -29,6 +29,9 @@ GREATEST_PRESSURE = 45.0
 NOT_WEAR_HOURS = 100_000.0
 """Life above which wear is not what a chain ends by."""
 
+PRESSURE_VELOCITY = 110.0, 130.0
+"""Joint pressure times chain speed at which the tables p_v of DIN 8195 end [MPa m/s]."""
+
 _NO_WEAR = 0.01
 """Part of the pull times way of a duty that may fall to blocks in which a rule has no hours."""
 
@@ -181,6 +184,19 @@ def _greatest_pressure(drive: PracticeDrive) -> float:
 def _under(block: PracticeDrive, duty: Sequence[PracticeDrive]) -> str:
     """Say which block of several."""
     return f" under {block.pull:.4g} N at {block.speed:.4g} rpm" if len(duty) > 1 else ""
+
+
+def pressure_velocity(*duty: PracticeDrive) -> float:
+    """Return the greatest joint pressure times chain speed of a drive [MPa m/s].
+
+    Examples
+    --------
+    40 MPa at 0.8 m/s:
+
+    >>> round(pressure_velocity(PracticeDrive(19.05, 21, 3.0, 120.0, 124, 4000.0, 100.0, 5.72)), 2)
+    32.0
+    """
+    return max(drive.pressure * drive.chain_speed for drive in duty)
 
 
 def opinions(*duty: PracticeDrive) -> tuple[Opinion, ...]:

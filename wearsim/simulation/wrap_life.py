@@ -124,7 +124,8 @@ def practice_warnings(found: SecondOpinions | None) -> list[str]:
     if found is None:
         return []
     outside = f"outside any published practice: {found.outside}" if found.outside else ""
-    return [text for text in (outside, found.lubrication) if text]
+    poorer = found.lubrication if found.lubrication_factor < 1.0 else ""
+    return [text for text in (outside, poorer) if text]
 
 
 def wrap_problem(
