@@ -131,7 +131,7 @@ def test_the_worst_rating_is_named_and_the_rest_are_counted() -> None:
     """GOST joint pressure 216.9 % is the worst of three: see the ratings that `check` prints."""
     quick = ["run.life_tolerance=0.1", "mechanism.phases=1", "run.horizon_hours=5"]
     text = drive_text(drive_life(load_drive(PATHS["packaging-conveyor"], quick)), "drive.toml")
-    worst = "joint pressure (indicative) 216.9 % and 2 more; life counts wear only"
+    worst = "joint pressure (indicative) 216.9 % and 2 more; without K_e 128.5 %"
     assert f"  Ratings    OVERLOADED: {worst}\n" in text
 
 

@@ -1,8 +1,11 @@
 """The drive of a case as the ratings see it."""
 
+from dataclasses import replace
+
 import pytest
 
 import wearsim
+from wearsim.catalogue.catalogues import regimes
 from wearsim.chain.selection import RatedDrive, RatingFinding, assess, rating_warnings, warning
 from wearsim.errors import CaseError
 
@@ -154,7 +157,21 @@ def test_a_typical_regime_is_rated_by_the_load_given():
         ratings(wearsim.load_case({**ONE_19, "load": {"power_kW": 6, "speed_rpm": 1000, **regime}}))
         for regime in ({}, {"regime": "V"})
     )
-    assert light == constant
+    assert [replace(one, hours=None) for one in light] == [replace(one, hours=None) for one in constant]
+
+
+def test_hours_of_impact_in_a_typical_regime_are_those_of_its_parts():
+    """1/h = sum(share p^2.5)/h_1, of the same speed."""
+    load = {"power_kW": 6, "speed_rpm": 1000}
+    full, light = (
+        next(
+            one.hours
+            for one in ratings(wearsim.load_case({**ONE_19, "load": {**load, **regime}}))
+            if one.hours
+        )
+        for regime in ({}, {"regime": "V"})
+    )
+    assert full / light == pytest.approx(sum(share * part**2.5 for part, share in regimes()["V"]))
 
 
 def test_a_typical_regime_cannot_break_the_chain():

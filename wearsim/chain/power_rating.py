@@ -4,6 +4,7 @@ The formulas are empirical and written in the handbooks' units: power in kW, spe
 """
 
 import math
+from collections.abc import Sequence
 
 from wearsim.catalogue.catalogues import table_factor
 
@@ -231,6 +232,24 @@ def roller_impact_hours(used: float, links: float) -> float:
     (480000.0, 30000.0)
     """
     return float(RATED_HOURS * used**-_IMPACT_SLOPE * links / _IMPACT_LINKS)
+
+
+def hours_over_duty(blocks: Sequence[tuple[float, float]]) -> float:
+    """Return the hours of a duty of which every block wears its share: 1/sum(share_i/h_i).
+
+    Parameters
+    ----------
+    blocks : sequence of tuple
+        Share of the time, and the hours if the block lasted all the time [h], above 0; one block or more.
+
+    Examples
+    --------
+    >>> hours_over_duty([(0.1, 2000.0)]), hours_over_duty([(0.5, 1000.0), (0.5, 3000.0)])
+    (20000.0, 1500.0)
+    """
+    # Relative to the first block: hours of a constant load come out to the last digit.
+    first = blocks[0][1]
+    return first / math.fsum(share * (first / hours) for share, hours in blocks)
 
 
 def galling_speed(pitch: float, teeth: float, tension: float) -> float:

@@ -7,7 +7,7 @@ units: m/s, rpm, kW.
 """
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.chain.chain_length import belt_centre
 from wearsim.chain.joint_pressure import allowable_joint_pressure
-from wearsim.chain.power_rating import RATED_HOURS, power_rating, strand_factor
+from wearsim.chain.power_rating import RATED_HOURS, hours_over_duty, power_rating, strand_factor
 from wearsim.chain.practice_drive import RATED_ELONGATION, PracticeDrive
 from wearsim.chain.selection import LARGEST_PITCH, rating_note
 from wearsim.errors import GeometryError
@@ -28,6 +28,12 @@ GREATEST_PRESSURE = 45.0
 
 NOT_WEAR_HOURS = 100_000.0
 """Life above which wear is not what a chain ends by."""
+
+PRESSURE_VELOCITY = 110.0, 130.0
+"""Joint pressure times chain speed at which the tables p_v of DIN 8195 end [MPa m/s]."""
+
+_NO_WEAR = 0.01
+"""Part of the pull times way of a duty that may fall to blocks in which a rule has no hours."""
 
 _RATED_LINKS, _RATED_RATIO = 120.0, 3.0
 _MOST_STRANDS_GOST = 3
@@ -149,23 +155,51 @@ RULES: tuple[PracticeRule, ...] = tuple(
 """The rules in the order of `opinions`."""
 
 
-def outside_practice(drive: PracticeDrive) -> str:
+def outside_practice(*duty: PracticeDrive) -> str:
     """Return why no rule has been in use at the joint pressure of a drive; empty where rules are.
+
+    Of a duty of several blocks by the block of the highest pressure that is outside. The pressure is
+    that of the pull alone, without shocks and without K_e.
 
     Examples
     --------
     >>> outside_practice(PracticeDrive(19.05, 21, 3.0, 120.0, 124, 5000.0, 100.0, 5.72))
     'joint pressure 50 MPa, in practice at most 45 MPa'
     """
-    allowed = allowable_joint_pressure(drive.pitch, drive.speed)
-    limit = min(GREATEST_PRESSURE, math.inf if allowed is None else 2.0 * allowed)
-    if drive.pressure <= limit:
+    outside = [drive for drive in duty if drive.pressure > _greatest_pressure(drive)]
+    if not outside:
         return ""
+    worst = max(outside, key=lambda drive: drive.pressure)
+    limit = _greatest_pressure(worst)
     twice = "" if limit == GREATEST_PRESSURE else ", twice [p]"
-    return f"joint pressure {drive.pressure:.3g} MPa, in practice at most {limit:.3g} MPa{twice}"
+    found = f"joint pressure {worst.pressure:.3g} MPa{_under(worst, duty)}"
+    return f"{found}, in practice at most {limit:.3g} MPa{twice}"
 
 
-def opinions(drive: PracticeDrive) -> tuple[Opinion, ...]:
+def _greatest_pressure(drive: PracticeDrive) -> float:
+    allowed = allowable_joint_pressure(drive.pitch, drive.speed)
+    return min(GREATEST_PRESSURE, math.inf if allowed is None else 2.0 * allowed)
+
+
+def _under(block: PracticeDrive, duty: Sequence[PracticeDrive]) -> str:
+    """Say which block of several."""
+    return f" under {block.pull:.4g} N at {block.speed:.4g} rpm" if len(duty) > 1 else ""
+
+
+def pressure_velocity(*duty: PracticeDrive) -> float:
+    """Return the greatest joint pressure times chain speed of a drive [MPa m/s].
+
+    Examples
+    --------
+    40 MPa at 0.8 m/s:
+
+    >>> round(pressure_velocity(PracticeDrive(19.05, 21, 3.0, 120.0, 124, 4000.0, 100.0, 5.72)), 2)
+    32.0
+    """
+    return max(drive.pressure * drive.chain_speed for drive in duty)
+
+
+def opinions(*duty: PracticeDrive) -> tuple[Opinion, ...]:
     """Return the hours of every published rule for a drive, in the order of `RULES`.
 
     To the elongation of the drive, all rules being linear in it, and with the lubrication that it
@@ -173,10 +207,13 @@ def opinions(drive: PracticeDrive) -> tuple[Opinion, ...]:
     rules is that of the drive times its shock factor. Of a chain of several strands the rules of
     pressure take the strand that carries most, F_t/m_p, the rating rule its strand factor.
 
+    Of a duty T = 1/sum(share_i/T_i), the lubrication being judged by the fastest block. A rule has
+    no hours where more than 1 % of pull times way falls to blocks outside its range.
+
     Parameters
     ----------
-    drive : PracticeDrive
-        The drive.
+    *duty : PracticeDrive
+        The drive, once for each block that pulls.
 
     Returns
     -------
@@ -192,17 +229,34 @@ def opinions(drive: PracticeDrive) -> tuple[Opinion, ...]:
     >>> first.rule.name, round(first.hours, -2)
     ('rating rule', 9200.0)
     """
-    return tuple(_opinion(rule, drive) for rule in RULES)
+    return tuple(_opinion(rule, duty) for rule in RULES)
 
 
-def _opinion(rule: PracticeRule, drive: PracticeDrive) -> Opinion:
-    if outside := outside_practice(drive):
+def fastest(duty: Sequence[PracticeDrive]) -> PracticeDrive:
+    """Return the block of the highest chain speed, by which lubrication is recommended."""
+    return max(duty, key=lambda drive: drive.chain_speed)
+
+
+def _pull_times_way(block: PracticeDrive) -> float:
+    return block.time_share * block.pull * block.speed
+
+
+def _opinion(rule: PracticeRule, duty: Sequence[PracticeDrive]) -> Opinion:
+    if outside := outside_practice(*duty):
         return Opinion(rule, None, f"outside any published practice: {outside}")
-    found = rule.hours(drive, drive.pressure * drive.shock_factor)
-    if isinstance(found, str):
-        return Opinion(rule, None, found)
-    hours = found * drive.elongation / RATED_ELONGATION * drive.lubrication_factor.factor
-    notes = [rating_note(drive.series)] if rule.school == "rating" else []
+    blocks: list[tuple[float, float]] = []
+    silent: list[tuple[float, str]] = []
+    for drive in duty:
+        found = rule.hours(drive, drive.pressure * drive.shock_factor)
+        if isinstance(found, str):
+            silent.append((_pull_times_way(drive), f"{found}{_under(drive, duty)}"))
+        else:
+            blocks.append((drive.time_share, found))
+    if math.fsum(way for way, _ in silent) > _NO_WEAR * math.fsum(map(_pull_times_way, duty)):
+        return Opinion(rule, None, max(silent)[1])
+    judged = fastest(duty)
+    hours = hours_over_duty(blocks) * judged.elongation / RATED_ELONGATION * judged.lubrication_factor.factor
+    notes = [rating_note(judged.series)] if rule.school == "rating" else []
     if hours > NOT_WEAR_HOURS:
         notes.append("above 100 000 h it is not wear that a chain ends by")
     return Opinion(rule, hours, "; ".join(filter(None, notes)))

@@ -55,12 +55,13 @@ class PracticeDrive:
     shock_factor: float = 1.0  # on the pull, f1 of ISO 10823 or the load's part of K_e
     lubrication: str = ""  # word for the supply; empty: as recommended
     environment: str = "clean"  # row of the table of environments
+    time_share: float = 1.0  # part of the time that it runs so, of a duty of several blocks
 
     def __post_init__(self) -> None:
         positive = ("pitch", "teeth", "speed", "links", "pull", "bearing_area", "pin_diameter")
         faults = [
             Fault(f"practice: {name} must be above 0, is {getattr(self, name):g}: give the drive's")
-            for name in (*positive, "strands", "elongation", "shock_factor")
+            for name in (*positive, "strands", "elongation", "shock_factor", "time_share")
             if not getattr(self, name) > 0.0
         ]
         words = {"lubrication": ("", *LUBRICATIONS), "environment": tuple(environments())}

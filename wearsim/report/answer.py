@@ -205,7 +205,18 @@ def overload_text(result: WearResult) -> str:
     used = ", ".join(used_text(finding) for finding in result.overloaded if not finding.at_least)
     short = [used_text(finding) for finding in result.overloaded if finding.at_least]
     found = "; ".join([f"{used} of the rating"] * bool(used) + short)
+    counts = pressure_that_counts(result)
+    found += f"; {counts}, which counts for published rules" if counts else ""
     return f"{found}; life counts wear only, fatigue may end it sooner"
+
+
+def pressure_that_counts(result: WearResult) -> str:
+    """Say which joint pressure counts for practice where that with K_e alone is above twice [p]."""
+    application = result.inputs.get("drive", {}).get("joint_application_factor", 1.0)
+    twice = [one for one in result.overloaded if one.name == "joint pressure" and one.used > 2.0]
+    if not twice or result.practice is None or result.practice.outside:
+        return ""
+    return f"without K_e {grouped(100.0 * twice[0].used / application)} %"
 
 
 def used_text(finding: RatingFinding) -> str:

@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from wearsim.quantities import grouped
+from wearsim.result.ends import NO_MORE_HOURS
 
 if TYPE_CHECKING:
     from wearsim.chain.practice_drive import PracticeDrive
@@ -38,6 +39,9 @@ class SecondOpinions:
     mean_hours: float | None  # geometric mean of the schools
     outside: str  # why no rule has been in use here; empty where rules are
     lubrication: str  # what is said of the lubrication; empty where it is as recommended or not known
+    lubrication_factor: float  # of lubrication and surroundings, on the hours
+    shock_factor: float  # on the pull of the rules
+    pressure_velocity: float  # joint pressure times chain speed [MPa m/s]
 
     @property
     def span(self) -> tuple[float, float] | None:
@@ -49,31 +53,40 @@ class SecondOpinions:
     def warnings(self) -> tuple[str, ...]:
         """What practice warns of: a poorer lubrication first, and a joint pressure outside of it."""
         outside = f"outside any published practice: {self.outside}" if self.outside else ""
-        return tuple(filter(None, (self.lubrication, outside)))
+        poorer = self.lubrication if self.lubrication_factor < 1.0 else ""
+        return tuple(filter(None, (poorer, outside)))
 
     def within(self, low: float, high: float) -> bool:
-        """Return whether the mean of the rules lies in the band of a computed life [h]."""
-        return self.mean_hours is None or low <= self.mean_hours <= high
+        """Return whether the mean of the rules lies in the band of a computed life [h].
+
+        Hours above 100 000 are all alike.
+        """
+        if self.mean_hours is None:
+            return True
+        return min(low, NO_MORE_HOURS) <= min(self.mean_hours, NO_MORE_HOURS) <= high
 
 
-def second_opinions(drive: "PracticeDrive") -> SecondOpinions:
-    """Return what the published rules say of a drive."""
+def second_opinions(*duty: "PracticeDrive") -> SecondOpinions:
+    """Return what the published rules say of a drive, given once for each block of its duty."""
     # Read by a chain's life only: a strand starts without the tables of the rules.
-    from wearsim.chain.practice import geometric_mean, opinions, outside_practice
+    from wearsim.chain.practice import fastest, geometric_mean, opinions, outside_practice, pressure_velocity
 
-    found = opinions(drive)
+    found, judged = opinions(*duty), fastest(duty)
     return SecondOpinions(
         tuple(RuleLife(one.rule.name, one.hours, one.rule.trust, one.rule.source, one.note) for one in found),
         geometric_mean(found),
-        outside_practice(drive),
-        _lubrication(drive),
+        outside_practice(*duty),
+        _lubrication(judged),
+        judged.lubrication_factor.factor,
+        judged.shock_factor,
+        pressure_velocity(*duty),
     )
 
 
 def _lubrication(drive: "PracticeDrive") -> str:
-    """Say what is recommended where a poorer lubrication is known, and what that does to the life."""
+    """Say what is recommended where another lubrication is known, and what that does to the life."""
     found = drive.lubrication_factor
-    if not drive.lubrication or found.factor >= 1.0:
+    if not drive.lubrication or found.factor == 1.0:
         return ""
     return (
         f"lubrication {drive.lubrication!r}, where {drive.recommended!r} is recommended at "
@@ -95,12 +108,47 @@ def practice_text(found: SecondOpinions) -> str:
         return f"outside any published practice: {found.outside}"
     if found.span is None or found.mean_hours is None:
         return "no published rule has hours here"
-    low, high = (grouped(end, 3) for end in found.span)
     count = sum(rule.hours is not None for rule in found.rules)
+    mean = rule_hours(found.mean_hours, 4)
+    if found.mean_hours > NO_MORE_HOURS:
+        mean += ": wear is not the end of this chain"
     return (
-        f"{low} to {high} h by {count} published rules, mean of the schools {grouped(found.mean_hours)} h "
-        "(practice, no measurement)"
+        f"{span_text(found.span)} by {count} published rules{counted_text(found)}, mean of the schools "
+        f"{mean} (practice, no measurement)"
     )
+
+
+def rule_hours(hours: float, digits: int = 3) -> str:
+    """Return hours of a rule, no number where it is not wear that ends a chain by then.
+
+    Examples
+    --------
+    >>> rule_hours(69_812.0), rule_hours(6.19e6)
+    ('69 800 h', '> 100 000 h')
+    """
+    return f"> {grouped(NO_MORE_HOURS)} h" if hours > NO_MORE_HOURS else f"{grouped(hours, digits)} h"
+
+
+def span_text(span: tuple[float, float]) -> str:
+    """Return the shortest and the longest hours of the rules, one of both where they read alike.
+
+    Examples
+    --------
+    >>> [span_text(span) for span in ((4100.0, 16_100.0), (69_812.0, 6.19e6), (3e5, 6e6))]
+    ['4 100 to 16 100 h', '69 800 to > 100 000 h', '> 100 000 h']
+    """
+    low, high = map(rule_hours, span)
+    return high if low == high else f"{low.removesuffix(' h')} to {high}"
+
+
+def counted_text(found: SecondOpinions) -> str:
+    """Return in words what the rules count beside the pull: shocks, another lubrication than recommended."""
+    counted = []
+    if found.shock_factor != 1.0:
+        counted.append(f"with shocks f1 = {found.shock_factor:g}, which the computed life leaves out")
+    if found.lubrication_factor != 1.0:
+        counted.append(f"times {found.lubrication_factor:g} for lubrication and surroundings")
+    return "".join(f", {one}" for one in counted)
 
 
 RULE_HEAD = ("published rule", "hours", "trust", "note")
@@ -108,15 +156,31 @@ RULE_HEAD = ("published rule", "hours", "trust", "note")
 
 
 def rule_rows(found: SecondOpinions) -> list[tuple[str, str, str, str]]:
-    """Return every rule with its hours, its trust, and why it has none or what limits their worth."""
+    """Return every rule with its hours, its trust, and why it has none or what limits their worth.
+
+    The last row is the limit of pressure times speed, which has no hours.
+    """
+    from wearsim.chain.practice import PRESSURE_VELOCITY
+
+    least, most = PRESSURE_VELOCITY
+    side = "within" if found.pressure_velocity <= least else "BEYOND"
     return [
+        *(
+            (
+                rule.rule,
+                rule_hours(rule.hours) if rule.hours is not None else "-",
+                rule.trust,
+                rule.note or "-",
+            )
+            for rule in found.rules
+        ),
         (
-            rule.rule,
-            f"{grouped(rule.hours, 3)} h" if rule.hours is not None else "-",
-            rule.trust,
-            rule.note or "-",
-        )
-        for rule in found.rules
+            "pressure times chain speed",
+            "-",
+            "constants unverified",
+            f"{grouped(found.pressure_velocity, 3)} MPa m/s, {side} the {least:g} to {most:g} at which "
+            "p_v of DIN 8195 ends; ANSI ratings reach about 165 with a stream of oil",
+        ),
     ]
 
 
@@ -127,6 +191,9 @@ def opinions_json(found: SecondOpinions) -> dict[str, Any]:
         "mean_hours": found.mean_hours,
         "outside": found.outside,
         "lubrication": found.lubrication,
+        "lubrication_factor": found.lubrication_factor,
+        "shock_factor": found.shock_factor,
+        "pressure_velocity_MPa_m_per_s": found.pressure_velocity,
     }
 
 
@@ -138,4 +205,7 @@ def read_opinions(stored: Mapping[str, Any]) -> SecondOpinions:
         stored["mean_hours"],
         stored["outside"],
         stored["lubrication"],
+        stored["lubrication_factor"],
+        stored["shock_factor"],
+        stored["pressure_velocity_MPa_m_per_s"],
     )

@@ -116,8 +116,8 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
 
 def chain_practice(case: Case) -> SecondOpinions | None:
     """Return what published rules say of the chain of a case; None where it transmits nothing."""
-    seen = wrap_of(case).practice(case)
-    return None if seen is None else second_opinions(seen)
+    duty = wrap_of(case).practice(case)
+    return second_opinions(*duty) if duty else None
 
 
 def wrap_problem(

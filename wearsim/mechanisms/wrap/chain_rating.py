@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings, polygon_effect
 from wearsim.chain.loop_layout import LoopLayout
+from wearsim.chain.power_rating import hours_over_duty
 from wearsim.chain.selection import RULES, RatedDrive, RatingFinding, assess, elongation_limit
 
 RatedLoad = tuple[str, RatedDrive]
@@ -30,6 +31,21 @@ def worst_findings(by_load: Sequence[Sequence[RatingFinding]]) -> tuple[RatingFi
             if before is None or finding.used > before.used:
                 worst[finding.name] = finding
     return tuple(worst.values())
+
+
+def with_hours_over_duty(
+    worst: Sequence[RatingFinding], shares: Sequence[float], by_block: Sequence[Sequence[RatingFinding]]
+) -> tuple[RatingFinding, ...]:
+    """Return findings whose hours are those of the whole duty, of its blocks and their shares of the time."""
+    blocks: dict[str, list[tuple[float, float]]] = {}
+    for share, findings in zip(shares, by_block, strict=True):
+        for finding in findings:
+            if finding.hours is not None:
+                blocks.setdefault(finding.name, []).append((share, finding.hours))
+    return tuple(
+        replace(finding, hours=hours_over_duty(blocks[finding.name])) if finding.name in blocks else finding
+        for finding in worst
+    )
 
 
 def rules_without_limit(by_load: Sequence[Sequence[RatingFinding]]) -> tuple[str, ...]:

@@ -1,7 +1,7 @@
 """A chain around a sprocket: gap, layout and loads, and what the rest of wearsim asks of them."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -35,6 +35,7 @@ from wearsim.mechanisms.wrap.chain_rating import (
     findings_by_load,
     meetings_note,
     rules_without_limit,
+    with_hours_over_duty,
     worst_findings,
 )
 
@@ -425,37 +426,44 @@ class WrapDrive(Drive):
             links=self.layout.links,
         )
 
-    def practice(self, case: Case) -> PracticeDrive | None:
-        """Return the drive as the published rules see it, at the mean of its duty weighted by the pull.
+    @property
+    def pulling(self) -> list[tuple[float, WrapLoad]]:
+        """Blocks of the duty in which the chain pulls, each after its share of the time."""
+        times = [block.share / block.speed_rpm for block in self.blocks]
+        whole = math.fsum(times)
+        return [
+            (time / whole, block) for time, block in zip(times, self.blocks, strict=True) if block.pull > 0.0
+        ]
 
-        None where it pulls nothing, or where the rules know no such number of strands.
+    def practice(self, case: Case) -> tuple[PracticeDrive, ...]:
+        """Return the drive as the published rules see it, once for every block of the duty that pulls.
+
+        No block where it pulls nothing, or where the rules know no such number of strands.
         """
-        worn = [block.share * block.pull for block in self.blocks]
-        whole, small = math.fsum(worn), min(self.layout.rated_teeth)
-        if not whole > 0.0 or self.chain.strands > MOST_STRANDS:
-            return None
-        own = self.gaps / case.engaged_every
-        pull, speed = (
-            math.fsum(weight * value for weight, value in zip(worn, values, strict=True)) / whole
-            for values in ([b.pull for b in self.blocks], [b.speed_rpm * own / small for b in self.blocks])
-        )
+        if self.chain.strands > MOST_STRANDS:
+            return ()
+        small, own = min(self.layout.rated_teeth), self.gaps / case.engaged_every
         supplied, environment = supply_in_words(case)
-        return PracticeDrive(
-            pitch=self.chain.pitch,
-            teeth=small,
-            ratio=max(self.layout.rated_teeth) / small,
-            speed=speed,
-            links=self.layout.links,
-            pull=pull,
-            bearing_area=self.chain.bearing_area,
-            pin_diameter=self.chain.pin_diameter,
-            strands=self.chain.strands,
-            series=self.chain.series,
-            light=self.chain.designation == LIGHT_CHAIN,
-            elongation=self.joint.elongation_limit,
-            shock_factor=self.service_factor,
-            lubrication=supplied,
-            environment=environment,
+        return tuple(
+            PracticeDrive(
+                pitch=self.chain.pitch,
+                teeth=small,
+                ratio=max(self.layout.rated_teeth) / small,
+                speed=block.speed_rpm * own / small,
+                links=self.layout.links,
+                pull=block.pull,
+                bearing_area=self.chain.bearing_area,
+                pin_diameter=self.chain.pin_diameter,
+                strands=self.chain.strands,
+                series=self.chain.series,
+                light=self.chain.designation == LIGHT_CHAIN,
+                elongation=self.joint.elongation_limit,
+                shock_factor=self.service_factor,
+                lubrication=supplied,
+                environment=environment,
+                time_share=share,
+            )
+            for share, block in self.pulling
         )
 
     def forces(self, load: WrapLoad) -> LoopForces:
@@ -475,25 +483,27 @@ class WrapDrive(Drive):
         )
         return LoopForces(ChainLoop(layout.pitch, wheels), tensions, load.centrifugal, lever, (False, False))
 
-    def _findings(self, case: Case) -> list[list[RatingFinding]]:
-        """What the handbooks say about every rated load that pulls, each named where there are several."""
+    def _findings(self, case: Case, among: Sequence[WrapLoad]) -> list[list[RatingFinding]]:
+        """What the handbooks say about every load that pulls, each named where there are several."""
         loads = []
-        for load in self.rated:
+        for load in among:
             if load.pull > 0.0:
-                of = f"{load.tension:.4g} N at {load.speed_rpm:.4g} rpm" if len(self.rated) > 1 else ""
+                of = f"{load.tension:.4g} N at {load.speed_rpm:.4g} rpm" if len(among) > 1 else ""
                 loads.append((of, self.rated_drive(case, load)))
         return findings_by_load(loads, self.service_factor, self.joint_application_factor)
 
     def ratings(self, case: Case) -> tuple[RatingFinding, ...]:
-        """Return what the handbooks say about the drive."""
+        """Return what the handbooks say about the drive: of its worst load, but hours of the whole duty."""
         limit = elongation_finding(self.layout.all_teeth, self.joint.elongation_limit)
-        return (*worst_findings(self._findings(case)), limit)
+        shares = [share for share, _ in self.pulling]
+        worst = worst_findings(self._findings(case, self.rated))
+        return (*with_hours_over_duty(worst, shares, self._findings(case, self.blocks)), limit)
 
     def notes(self, case: Case) -> list[str]:
         """Return what a designer asks of a chain drive that no rule limits."""
         loaded = self.gaps // math.gcd(self.gaps, case.engaged_every)
         meetings = meetings_note(loaded, self.layout.links, self.joint.alternating)
-        silent = rules_without_limit(self._findings(case))
+        silent = rules_without_limit(self._findings(case, self.rated))
         return drive_notes(self.layout, self.rated_drive(case, self.heaviest), silent, meetings)
 
 
@@ -515,8 +525,10 @@ _SUPPLY = {
 
 
 def supply_in_words(case: Case) -> tuple[str, str]:
-    """Return the word for the supply of lubricant, empty where it is not known, and for the surroundings."""
-    lubrication, condition = case.inputs.get("lubrication") or {}, case.inputs["wear"].get("condition", "")
+    """Return the words for the supply of the joints, empty where it is not known, and the surroundings."""
+    lubrication = case.inputs.get("lubrication") or {}
+    of_joints = (case.inputs.get("joint") or {}).get("condition")
+    condition = of_joints or case.inputs["wear"].get("condition", "")
     supplied = _SUPPLY.get(lubrication.get("lubricant") or condition, "")
     soil = condition == "soil-contaminated" or lubrication.get("environment") == "soil"
     return supplied, "mud" if soil else lubrication.get("environment", "clean")

@@ -5,8 +5,7 @@ import shlex
 from wearsim.drive.drive_result import CHAIN, DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan
 from wearsim.drive.plan import Stop
-from wearsim.quantities import grouped
-from wearsim.report.answer import used_text
+from wearsim.report.answer import pressure_that_counts, used_text
 from wearsim.report.drive.sheet import (
     Lives,
     against_hours,
@@ -34,6 +33,7 @@ from wearsim.report.drive.sheet import (
 from wearsim.report.text_lines import counted, listed, numbered, row
 from wearsim.result import Life
 from wearsim.result.lives import hours
+from wearsim.result.second_opinions import span_text
 
 _MAX_LINES, _TITLE_ASSUMES_NEXT = 12, 3
 _MAX_ROWS = 2
@@ -83,8 +83,9 @@ def _band(found: DriveLife) -> list[str]:
     short, practice = whole.partition(",")[0], found.practice
     if practice is None or practice.span is None or practice_agrees(found):
         return [whole, short]
-    low, high = (grouped(end, 3) for end in practice.span)
-    return [f"{short}; by published rules {low} to {high} h", f"{short}; published rules differ"]
+    shocks = f" with f1 = {practice.shock_factor:g}" if practice.shock_factor != 1.0 else ""
+    rules = f"{short}; by published rules{shocks} {span_text(practice.span)}"
+    return [rules, f"{short}; published rules{shocks} differ"]
 
 
 def _line(label: str, *forms: str) -> str:
@@ -161,7 +162,9 @@ def _ratings(found: DriveLife) -> list[str]:
     worst = used_text(max(driver.overloaded, key=lambda finding: finding.used))
     others = len(driver.overloaded) - 1
     over = f"OVERLOADED: {worst}" + (f" and {others} more" if others else "")
-    return [f"{over}; life counts wear only", over]
+    counts = pressure_that_counts(driver)
+    whole = f"{over}; {counts}" if counts else over
+    return [f"{whole}; life counts wear only", whole, over]
 
 
 def _worn_most(found: DriveLife) -> list[str]:
