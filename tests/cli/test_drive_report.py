@@ -295,7 +295,7 @@ def test_what_does_not_fit_is_refused(cli, drive, tmp_path, bored):
         done = cli("report", path, "--out", out, *option)
         assert done.code == 2 and "a drive with [[sprocket]] takes neither" in done.err
     done = cli("report", drive(), path, "--out", out)
-    assert done.code == 2 and "two.toml is a whole drive, " in done.err
+    assert done.code == 2 and "a drive has a sheet of its own" in done.err
     done = cli("report", drive(), "--out", out, "--author", "me")
     assert done.code == 2 and "belong to a drive with [[sprocket]]" in done.err
     (tmp_path / "page.html").mkdir()

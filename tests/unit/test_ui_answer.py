@@ -29,7 +29,9 @@ def test_overload_stands_below_the_hours(power, words):
         AnswerPanel({}).show_life(result)
         texts = [one.text for one in client.elements.values() if isinstance(one, ui.label)]
     told = [text for text in texts if "verloaded" in text]
-    assert len(told) == (words is not None)
-    if words is not None:
-        assert told[0].startswith(words)
-        assert texts.index("> 20 h") < texts.index(told[0]) < texts.index("as given")
+    if words is None:
+        assert told == []
+    else:
+        headline, below = told
+        assert headline == "> 20 h (overloaded)" and below.startswith(words)
+        assert texts.index(headline) < texts.index(below) < texts.index("as given")
