@@ -254,5 +254,5 @@ def test_cases_of_a_study_keep_the_joints_of_their_condition():
     }
     document = read_document(tables, ())
     plain = plain_document(document, load_case(tables)).data
-    assert plain["wear"] == {"specific_wear_rate_mm2_per_N": 1e-8}
+    assert plain["wear"] == {"condition": "hardened, dry", "specific_wear_rate_mm2_per_N": 1e-8}
     assert load_case(plain).drive.joint.coefficient == 7e-9

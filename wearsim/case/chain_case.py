@@ -67,6 +67,9 @@ def _complete(tables: CaseTables, document: Document, build: Builder, tolerance:
     modulus = contact_modulus_of(case, {"sprocket": materials.sprocket, "roller": materials.roller})
     wear = wear_input(case, tables.wear)
     kind = mechanism_kind(case)
+    if kind != "wrap" and tables.wear.condition and tables.wear.specific_wear_rate_mm2_per_N:
+        text = "gives the specific wear rate: remove it or specific_wear_rate_mm2_per_N (a wrap takes both)"
+        faults.add("wear.condition", text)
     duty = complete_duty(case, kind, chain)
     drive = build(case, wear, chain, duty)
     critical_depth = _critical_depth(case, drive)

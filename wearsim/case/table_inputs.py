@@ -94,9 +94,9 @@ def wear_input(case: CaseRecord, table: WearTable) -> WearInput:
 
 
 def _law(case: CaseRecord, table: WearTable) -> WearInput:
-    if table.condition is not None:
-        return _condition(case, table, table.condition)
     coefficient = table.specific_wear_rate_mm2_per_N or table.coefficient
+    if table.condition is not None and coefficient is None:
+        return _condition(case, table, table.condition)
     assert coefficient is not None
     low, high = _PLAUSIBLE_WEAR_RATE
     if table.law == "archard" and not low <= coefficient <= high:

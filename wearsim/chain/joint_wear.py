@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from wearsim.catalogue.catalogues import Environment, WearCondition
@@ -15,6 +15,21 @@ TURNING = (30.0, 1000.0)
 
 PITCHES = (12.7, 50.8)
 """Pitches between which a rate changes [mm]; it is held outside."""
+
+
+class JointState(NamedTuple):
+    """Where joints run: what a law of their wear depends on."""
+
+    pressure: float  # between pin and bush in the tight span [MPa]
+    speed: float  # of the small sprocket [rpm]
+    pitch: float  # of the chain [mm]
+
+    @property
+    def held(self) -> "JointState":
+        """Where a law takes them to run: at the ends of its ranges where they run beyond."""
+        return JointState(
+            max(self.pressure, LEAST_PRESSURE), _held(self.speed, TURNING), _held(self.pitch, PITCHES)
+        )
 
 
 @dataclass(frozen=True)
@@ -44,6 +59,27 @@ class JointLaw:
     reference_pressure: float = 25.7
     reference_speed: float = 1000.0
     reference_pitch: float = 12.7
+
+    @property
+    def reference(self) -> JointState:
+        """Where the coefficient holds."""
+        return JointState(self.reference_pressure, self.reference_speed, self.reference_pitch)
+
+    def at(self, state: JointState) -> "JointLaw":
+        """Return the same rates, told by that where some joints run.
+
+        Examples
+        --------
+        >>> law = JointLaw(1e-10, 2.0, 0.5, 0.0, 20.0, 800.0, 12.7)
+        >>> law.at(JointState(40.0, 200.0, 12.7))  # doctest: +ELLIPSIS
+        JointLaw(coefficient=4e-10, ... reference_pressure=40.0, reference_speed=200.0, reference_pitch=12.7)
+        """
+        return replace(self.referred_to(state.held), coefficient=self.rate(*state))
+
+    def referred_to(self, state: JointState) -> "JointLaw":
+        """Return a law of the same exponents whose coefficient holds elsewhere."""
+        pressure, speed, pitch = state
+        return replace(self, reference_pressure=pressure, reference_speed=speed, reference_pitch=pitch)
 
     def pressure_factor(self, pressure: float) -> float:
         """Return the rate at a pressure in the joint [MPa] over that at the reference pressure."""
@@ -95,14 +131,6 @@ def joint_law(state: WearCondition) -> JointLaw:
     )
 
 
-class JointState(NamedTuple):
-    """Where joints run: what a law of their wear depends on."""
-
-    pressure: float  # between pin and bush in the tight span [MPa]
-    speed: float  # of the small sprocket [rpm]
-    pitch: float  # of the chain [mm]
-
-
 class JointBand(NamedTuple):
     """Ends of the band of a rate over the rate, which holds 9 of 10 drives, and where it comes from."""
 
@@ -142,10 +170,11 @@ def extrapolation(law: JointLaw, state: JointState) -> str:
     >>> extrapolation(law, JointState(40.0, 600.0, 12.7))
     'beyond what the rate was found for: joint pressure 40 MPa (11.6 to 21.8 MPa)'
     """
-    reference = law.reference_pressure, law.reference_speed, law.reference_pitch
     found = [
         f"{name} {value:.4g} {unit} ({low * at:.3g} to {high * at:.4g} {unit})"
-        for (name, unit), value, at, (low, high) in zip(_QUANTITIES, state, reference, _WINDOW, strict=True)
+        for (name, unit), value, at, (low, high) in zip(
+            _QUANTITIES, state, law.reference, _WINDOW, strict=True
+        )
         if not low * at * (1.0 - 1e-9) <= value <= high * at * (1.0 + 1e-9)
     ]
     return f"beyond what the rate was found for: {', '.join(found)}" if found else ""

@@ -134,8 +134,10 @@ def plain_document(document: Document, case: Case) -> Document:
     """Return a case in which every value stands that a study changes."""
     data = {name: table for name, table in document.data.items() if name != "uncertainty"}
     if "condition" in case.inputs["wear"]:
-        wear = {name: value for name, value in data.get("wear", {}).items() if name != "condition"}
-        data = replaced({**data, "wear": wear}, coefficient_key(case).split("."), case.wear.coefficient)
+        if not case.drive.wear_coefficients:
+            wear = {name: value for name, value in data.get("wear", {}).items() if name != "condition"}
+            data = {**data, "wear": wear}
+        data = replaced(data, coefficient_key(case).split("."), case.wear.coefficient)
     for key, setting in {**case.drive.wear_coefficients, **case.drive.wear_settings}.items():
         data = replaced(data, key.split("."), setting)
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)

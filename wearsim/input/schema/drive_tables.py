@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
+from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator
 
 from wearsim.catalogue.catalogues import chain_name, chains, known_chain_name, wear_conditions
 from wearsim.input.schema.table import Table, all_differ, known, others_of
@@ -33,6 +33,14 @@ JOINT_LAW_KEYS = (
 """Keys of the law by which joints wear, in the order of `wearsim.chain.joint_wear.JointLaw`."""
 
 
+_REFERENCES = {
+    "reference_pressure_MPa": (15.0, 1000.0),
+    "reference_speed_rpm": (30.0, 1000.0),
+    "reference_pitch_mm": (12.7, 50.8),
+}
+"""Ranges in which the law of the joints changes a rate, of pressures to far beyond any chain's."""
+
+
 class JointTable(Table):
     """Wear of pin and bush, which makes the chain grow."""
 
@@ -42,9 +50,9 @@ class JointTable(Table):
     pressure_exponent: Annotated[PositiveNumber, Field(ge=0.5, le=5.0)] | None = None
     speed_exponent: Annotated[NotNegative, Field(le=2.0)] | None = None
     pitch_exponent: Annotated[NotNegative, Field(le=2.0)] | None = None
-    reference_pressure_MPa: Annotated[Positive, Field(le=1e3)] | None = None
-    reference_speed_rpm: Annotated[Positive, Field(le=1e5)] | None = None
-    reference_pitch_mm: Annotated[Positive, Field(ge=0.01, le=1e5)] | None = None
+    reference_pressure_MPa: Positive | None = None
+    reference_speed_rpm: Positive | None = None
+    reference_pitch_mm: Positive | None = None
     band_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
     source: Annotated[str, Field(min_length=1, max_length=200)] | None = None
     pitch: Literal["alternating", "uniform"] | None = None
@@ -53,6 +61,14 @@ class JointTable(Table):
     @classmethod
     def _known(cls, value: str | None) -> str | None:
         return known(value, dict(wear_conditions()), "wear condition", "wearsim list wear-conditions")
+
+    @field_validator(*_REFERENCES)
+    @classmethod
+    def _changes_there(cls, value: float | None, info: ValidationInfo) -> float | None:
+        low, high = _REFERENCES[info.field_name or ""]
+        if value is None or low <= value <= high:
+            return value
+        raise ValueError(f"must lie in {low:g} to {high:g}, beyond which the law holds a rate: give that end")
 
     @classmethod
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:

@@ -69,9 +69,8 @@ class WearTable(Table):
             found += [
                 (key, f"law = {self.law!r} needs this key{alternative}") for key in wanted if key not in given
             ]
-        elif self.law != "archard" or given:
-            other = f"or {', '.join(given)}" if given else f"or law = {self.law!r}"
-            message = f"a condition gives the specific wear rate of law = 'archard': remove it {other}"
+        elif self.law != "archard":
+            message = f"a condition is one of law = 'archard': remove it or law = {self.law!r}"
             found.append(("condition", message))
         for pair in _TOGETHER:
             missing = [key for key in pair if getattr(self, key) is None]

@@ -12,7 +12,7 @@ from wearsim.case.model import Case, Drive, LoadBlock, WearBand, WearInput, heav
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings
-from wearsim.chain.joint_wear import JointLaw, elongation_per_loop
+from wearsim.chain.joint_wear import JointLaw, JointState, elongation_per_loop
 from wearsim.chain.loop_forces import LoopForces
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.practice_drive import MOST_STRANDS, PracticeDrive
@@ -69,6 +69,8 @@ class JointInput:
     law: JointLaw  # specific wear rate of pin and bush together
     band: WearBand  # of its coefficient
     tooth_band: WearBand  # of the coefficient of the teeth, where they run on this chain
+    tooth_law: JointLaw | None  # by which the teeth wear too, of their coefficient; None where they do not
+    state: JointState  # where the joints run
     bearing_area: float  # projected area of pin in bush [mm2]
     alternating: bool  # whether wear lengthens every other link only, as it does
     elongation_limit: float  # relative elongation at which the chain's life ends
@@ -143,6 +145,12 @@ class WrapDrive(Drive):
     def wear_settings(self) -> Mapping[str, float | str]:
         """Law of the joints, by the keys of [joint]."""
         return law_keys(self.joint.law)
+
+    @property
+    def referred_here(self) -> "WrapDrive":
+        """The same drive, the law of its joints told by where they run."""
+        joint = self.joint
+        return replace(self, joint=replace(joint, law=joint.law.at(joint.state)))
 
     def wear_band(self, part: str, wear: WearInput) -> WearBand:
         """Return that of the joints for the chain, that of the teeth for the sprocket."""

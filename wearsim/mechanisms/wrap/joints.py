@@ -66,6 +66,8 @@ def joint_input(
         law=law,
         band=_band(case, law, state),
         tooth_band=_tooth_band(case, law, state, wear),
+        tooth_law=_tooth_law(case, law),
+        state=state,
         bearing_area=chain.bearing_area,
         alternating=alternates(case),
         elongation_limit=0.01 * limit,
@@ -75,21 +77,24 @@ def joint_input(
 def with_teeth_alike(
     case: ChainRecord, chain: Chain, law: JointLaw, blocks: Sequence[WrapLoad]
 ) -> tuple[WrapLoad, ...]:
-    """Return loads whose teeth wear by the law of the joints, where both have the rate of one condition.
+    """Return loads whose teeth wear by the law of the joints, where both have one wear condition.
 
     What speed and pressure do to the lubricant between pin and bush they do to it between roller and tooth.
     With it sprockets last two or three chains at every speed, as in practice; without it 20 at 120 rpm.
     """
-    if not _teeth_alike(case, law):
+    of_teeth = _tooth_law(case, law)
+    if of_teeth is None:
         return tuple(blocks)
+    referred = of_teeth.rate(*law.reference) / of_teeth.coefficient
     factors = [
         law.pressure_factor((block.tension + block.centrifugal) / chain.bearing_area)
         * block.turning_factors[0]
+        * referred
         for block in blocks
     ]
     shown = " to ".join(dict.fromkeys(f"{end:.3g}" for end in (min(factors), max(factors))))
     case.assumptions.append(
-        f"teeth wear {shown} times as fast as their condition says, by the law of the joints: no tooth was "
+        f"teeth wear {shown} times as fast as their coefficient says, by the law of the joints: no tooth was "
         "measured, but so sprockets last two or three chains at every speed, as in practice"
     )
     return tuple(
@@ -98,10 +103,15 @@ def with_teeth_alike(
     )
 
 
-def _teeth_alike(case: ChainRecord, law: JointLaw) -> bool:
-    """Return whether teeth and joints take the rates of one condition by a law that is not constant."""
+def _tooth_law(case: ChainRecord, law: JointLaw) -> JointLaw | None:
+    """Return the law of the teeth, that of the joints from where the rates of their one condition hold.
+
+    None where they have two conditions or none, or a law that is constant.
+    """
     of_teeth = case.tables.wear.condition
-    return of_teeth is not None and _table(case).condition in (None, of_teeth) and not law.is_constant
+    if of_teeth is None or _table(case).condition not in (None, of_teeth) or law.is_constant:
+        return None
+    return law.referred_to(joint_law(wear_conditions()[of_teeth]).reference)
 
 
 def joint_state(chain: Chain, blocks: Sequence[WrapLoad], own_teeth: float, small: int) -> JointState:
@@ -157,17 +167,25 @@ def _band(case: ChainRecord, law: JointLaw, state: JointState) -> WearBand:
         factor = table.band_factor or DEFAULT_BAND
         if table.band_factor is None:
             case.take("joint.band_factor", factor, "the rate of the joints is the user's")
-        return WearBand(1.0 / factor, factor, f"joints: factor {factor:g} to either side")
+        band = JointBand(1.0 / factor, factor, f"joints: factor {factor:g} to either side")
+        # A factor beside a rate is one of where it was found, beside a condition one of here.
+        found_elsewhere = given is not None and not law.is_constant
+        return WearBand(*(extrapolated(band, law, state.held) if found_elsewhere else band))
     known = _named(case) is not None
     return WearBand(*joint_band(law, condition, state, known, _environment(case)))
 
 
 def _tooth_band(case: ChainRecord, law: JointLaw, state: JointState, wear: WearInput) -> WearBand:
-    """Return the band of the teeth, wider where they wear by the joints' law beyond its window."""
-    band = WearBand(wear.low, wear.high, wear.band)
-    if case.tables.wear.band_factor is not None or not _teeth_alike(case, law):
+    """Return the band of the teeth, wider where they wear by the joints' law beyond its window.
+
+    A rate of their own was read where that of the joints was.
+    """
+    band, table, of_teeth = WearBand(wear.low, wear.high, wear.band), case.tables.wear, _tooth_law(case, law)
+    if of_teeth is None:
         return band
-    return WearBand(*extrapolated(JointBand(*band), law, state))
+    if table.specific_wear_rate_mm2_per_N is not None:
+        return WearBand(*extrapolated(JointBand(*band), law, state.held))
+    return band if table.band_factor else WearBand(*extrapolated(JointBand(*band), of_teeth, state))
 
 
 def _environment(case: ChainRecord) -> Environment | None:
@@ -182,8 +200,7 @@ def _say_law(case: ChainRecord, law: JointLaw, condition: WearCondition, state: 
     ends = f"{condition.joint_low:g} to {condition.joint_high:g}"
     case.take(JOINT_COEFFICIENT, law.coefficient, f"{of}: {ends}; {condition.joint_source}")
     _record_law(case, law)
-    if not law.is_constant:
-        case.assumptions.append(f"{_law_in_words(law)}; here {law.rate(*state):.3g} mm2/N {_at(state)}")
+    _say_rate(case, law, condition, state)
 
 
 def _say_own_law(case: ChainRecord, law: JointLaw, condition: WearCondition, state: JointState) -> None:
@@ -192,11 +209,23 @@ def _say_own_law(case: ChainRecord, law: JointLaw, condition: WearCondition, sta
         case.assumptions.append(f"{JOINT_COEFFICIENT} = {law.coefficient:.4g} comes from: {source}")
     elif _named(case):
         _warn_of_rate(case, condition, law.coefficient, state)
-    if law.is_constant:
+    if law.is_constant and _table(case).law != PRESSURE_SPEED:
         case.take("joint.law", CONSTANT, "a rate that is given holds at every pressure and speed")
     else:
         _record_law(case, law)
-        case.assumptions.append(_law_in_words(law))
+    _say_rate(case, law, condition, state)
+
+
+def _say_rate(case: ChainRecord, law: JointLaw, condition: WearCondition, state: JointState) -> None:
+    """Record what a law makes of the rate here, or that one which could change it does not."""
+    if not law.is_constant:
+        case.assumptions.append(f"{_law_in_words(law)}; here {law.rate(*state):.3g} mm2/N {_at(state)}")
+    elif _table(case).law == PRESSURE_SPEED:
+        case.assumptions.append(
+            f"joint.law = {PRESSURE_SPEED!r} is constant here: the exponents of wear condition "
+            f"{condition.condition!r} are those of a constant rate; give joint.pressure_exponent, "
+            "speed_exponent or pitch_exponent"
+        )
 
 
 def _record_law(case: ChainRecord, law: JointLaw) -> None:
@@ -213,7 +242,13 @@ def _law_in_words(law: JointLaw) -> str:
 
 
 def _at(state: JointState) -> str:
-    return f"at {state.pressure:.3g} MPa and {state.speed:.4g} rpm"
+    """Say where joints run, and where a law holds its rate at the end of a range."""
+    units = ("MPa", "rpm", "mm pitch")
+    held = [
+        f"{end:g} {unit}" for value, end, unit in zip(state, state.held, units, strict=True) if value != end
+    ]
+    taken = f" (rate held at {', '.join(held)})" if held else ""
+    return f"at {state.pressure:.3g} MPa and {state.speed:.4g} rpm{taken}"
 
 
 def _warn_of_rate(case: ChainRecord, state: WearCondition, given: float, at: JointState) -> None:

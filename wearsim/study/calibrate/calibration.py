@@ -30,6 +30,7 @@ class FittedCoefficient:
     value: float  # fitted, and in the case
     in_case: float  # fitted, and in the case
     interval: ConfidenceInterval  # by the profile of the likelihood
+    holds_at: str = ""  # where it holds, in words; everywhere without them
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from wearsim.case.model import Case
+from wearsim.chain.joint_wear import JointLaw
 from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.schema.lubrication_tables import SCHEDULES
@@ -253,20 +254,21 @@ class CaseFit:
         if parameters.teeth:
             given[coefficient_key(self.case)] = parameters.coefficient
         if parameters.chain:
-            given[JOINT] = parameters.joint
+            given[JOINT] = wrap_of(self.case).referred_here.joint.coefficient
         given |= parameters.shapes
+        holds = _where_rates_hold(self.case)
         values = []
         for index, (key, start) in enumerate(given.items()):
             interval = profile_interval(problem, stated, index, self.options.confidence)
             value = start * math.exp(stated.point[index])
-            values.append(FittedCoefficient(key, value, start, interval.scaled(start)))
+            values.append(FittedCoefficient(key, value, start, interval.scaled(start), holds.get(key, "")))
         return tuple(values), stated.correlation
 
     def _fitted_tables(
         self, values: Sequence[FittedCoefficient], parts: Sequence[PartLife]
     ) -> Mapping[str, Any]:
         """Tables of the case with the values, the bands of known coefficients, and enough time."""
-        tables = self.tables
+        tables = self._tables_here() if JOINT in self.case.drive.wear_coefficients else self.tables
         banded = {JOINT} if self.parameters.shapes else {JOINT, coefficient_key(self.case)}
         for one in values:
             tables = replaced(tables, one.key.split("."), one.value)
@@ -274,14 +276,25 @@ class CaseFit:
                 band = max(one.interval.high / one.value, one.value / one.interval.low)
                 tables = replaced(tables, (one.key.partition(".")[0], "band_factor"), band)
         if self.parameters.chain:
-            for key, setting in {**self.case.drive.wear_settings, JOINT_SOURCE: self._source()}.items():
-                tables = replaced(tables, key.split("."), setting)
+            tables = replaced(tables, JOINT_SOURCE.split("."), self._source())
         longest = max(part.life for part in parts)
         horizon = max(self.case.run.horizon_hours, _ENOUGH * longest)
         if self.time.log.hours:
             given = {key: value for key, value in tables["lubrication"].items() if key not in SCHEDULES}
             tables = {**tables, "lubrication": {**given, **self.time.log.schedule}}
         return replaced(tables, ("run", "horizon_hours"), horizon)
+
+    def _tables_here(self) -> Mapping[str, Any]:
+        """Tables of a wrap whose rate of joints is told by where they run; of what is not fitted its band."""
+        tables, here = self.tables, wrap_of(self.case).referred_here
+        if not self.parameters.teeth and "condition" in tables["wear"]:
+            key = coefficient_key(self.case).partition(".")[2]
+            of_teeth = {name: value for name, value in tables["wear"].items() if name != key}
+            tables = {**tables, "wear": of_teeth}
+        for key, setting in {**here.wear_coefficients, **here.wear_settings}.items():
+            tables = replaced(tables, key.split("."), setting)
+        low, high, _ = here.joint.band
+        return replaced(tables, ("joint", "band_factor"), max(high, 1.0 / low))
 
     def _source(self) -> str:
         """Say where the coefficient of the joints comes from."""
@@ -302,6 +315,24 @@ class CaseFit:
             life = self.time.running(whole / joints.value)
             parts.append(PartLife("chain", hours, life, interval.mapped(self.time.running)))
         return tuple(parts)
+
+
+def _where_rates_hold(case: Case) -> Mapping[str, str]:
+    """Say where the coefficients of a wrap hold, of those that change with pressure, speed and pitch."""
+    if JOINT not in case.drive.wear_coefficients:
+        return {}
+    joint = wrap_of(case).referred_here.joint
+    found = {}
+    if not joint.law.is_constant:
+        found[JOINT] = f"{_at(joint.law)}, elsewhere by joint.law = 'pressure_speed'"
+    if joint.tooth_law is not None:
+        found[coefficient_key(case)] = f"{_at(joint.tooth_law)} beside wear.condition, elsewhere by joint.law"
+    return found
+
+
+def _at(law: JointLaw) -> str:
+    pressure, speed, pitch = law.reference
+    return f"at {pressure:.4g} MPa, {speed:.4g} rpm and {pitch:.4g} mm pitch"
 
 
 def _joints(case: Case) -> tuple[float, float, float]:

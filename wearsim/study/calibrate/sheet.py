@@ -39,7 +39,8 @@ def calibration_text(found: Calibration) -> str:
         (
             "Fitted",
             f"{value.key} = {value.value:.4g}   ({share}: {_ends(value.interval, _digits)}), "
-            f"{value.value / value.in_case:.3g} times the case's",
+            f"{value.value / value.in_case:.3g} times the case's"
+            + (value.holds_at and f"; {value.holds_at}"),
         )
         for value in found.values
     ]
@@ -143,6 +144,7 @@ def _value(one: FittedCoefficient) -> Mapping[str, Any]:
         "given": one.in_case,
         "low": known["low"],
         "high": known["high"],
+        "holds_at": one.holds_at,
     }
 
 
