@@ -1,10 +1,13 @@
 """What the published rules say of a chain beside its computed life."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from wearsim.quantities import grouped
+from wearsim.result.ends import Lives
+from wearsim.result.lives import Life
 
 if TYPE_CHECKING:
     from wearsim.chain.practice_drive import PracticeDrive
@@ -28,10 +31,13 @@ class SecondOpinions:
     Examples
     --------
     >>> from wearsim.chain.practice_drive import PracticeDrive
+    >>> from wearsim.result import LowerBound
     >>> drive = PracticeDrive(19.05, 21, 57 / 21, 120.0, 124, 3750.0, 89.3, 5.72)
     >>> found = second_opinions(drive)
-    >>> found.within(3200.0, 25_000.0), found.within(61_640.0, 102_700.0)
+    >>> found.within((Life(1e6, 3200.0), Life(8e6, 25_000.0))), found.within((Life(1e6, 9e3), Life(2e6, 2e4)))
     (True, False)
+    >>> found.within((LowerBound(1e5, 330.0), LowerBound(1e6, 3000.0)))
+    True
     """
 
     rules: tuple[RuleLife, ...]
@@ -45,9 +51,11 @@ class SecondOpinions:
         hours = [rule.hours for rule in self.rules if rule.hours is not None]
         return (min(hours), max(hours)) if hours else None
 
-    def within(self, low: float, high: float) -> bool:
-        """Return whether the mean of the rules lies in the band of a computed life [h]."""
-        return self.mean_hours is None or low <= self.mean_hours <= high
+    def within(self, band: Lives) -> bool:
+        """Return whether the mean of the rules lies in the band of a life, as far as that is known."""
+        low, high = band
+        most = high.hours if isinstance(high, Life) else math.inf
+        return self.mean_hours is None or low.hours_run <= self.mean_hours <= most
 
 
 def second_opinions(drive: "PracticeDrive") -> SecondOpinions:

@@ -33,6 +33,7 @@ from wearsim.report.drive.sheet import (
 )
 from wearsim.report.text_lines import counted, listed, numbered, row
 from wearsim.result import Life
+from wearsim.result.ends import wear_only
 from wearsim.result.lives import hours
 
 _MAX_LINES, _TITLE_ASSUMES_NEXT = 12, 3
@@ -84,7 +85,8 @@ def _band(found: DriveLife) -> list[str]:
     if practice is None or practice.span is None or practice_agrees(found):
         return [whole, short]
     low, high = (grouped(end, 3) for end in practice.span)
-    return [f"{short}; by published rules {low} to {high} h", f"{short}; published rules differ"]
+    whose = "" if found.first_worn == CHAIN else "chain "
+    return [f"{short}; {whose}by published rules {low} to {high} h", f"{short}; published rules differ"]
 
 
 def _line(label: str, *forms: str) -> str:
@@ -107,7 +109,9 @@ def _chain(found: DriveLife) -> list[str]:
     if not against:
         return _part(found, CHAIN)
     forms = _part(found, CHAIN)
-    return [*(f"{form}; {against}" for form in forms), *(f"{form}; {worst}" for form in forms)]
+    first = forms[-1].partition("; by wear")[0]
+    lines = [f"{form}; {why}" for why in (against, worst) for form in (*forms, first)]
+    return [*lines, f"{first}; beyond its rating"]
 
 
 def _part(found: DriveLife, name: str) -> list[str]:
@@ -161,7 +165,7 @@ def _ratings(found: DriveLife) -> list[str]:
     worst = used_text(max(driver.overloaded, key=lambda finding: finding.used))
     others = len(driver.overloaded) - 1
     over = f"OVERLOADED: {worst}" + (f" and {others} more" if others else "")
-    return [f"{over}; life counts wear only", over]
+    return [f"{over}; life counts wear only", over] if wear_only(found.ends) else [over]
 
 
 def _worn_most(found: DriveLife) -> list[str]:
