@@ -165,7 +165,8 @@ def _ratings(found: DriveLife) -> list[str]:
     worst = used_text(max(driver.overloaded, key=lambda finding: finding.used))
     others = len(driver.overloaded) - 1
     over = f"OVERLOADED: {worst}" + (f" and {others} more" if others else "")
-    return [f"{over}; life counts wear only", over] if wear_only(found.ends) else [over]
+    more = "life counts wear only" if wear_only(found.ends) else "plates may fail sooner"
+    return [f"{over}; {more}", over]
 
 
 def _worn_most(found: DriveLife) -> list[str]:
