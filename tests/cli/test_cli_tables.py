@@ -48,13 +48,14 @@ OPTIONAL = (
     "service_at_least",
     "overloaded",
     "ratings",
+    "events",
     "practice",
 )
 
 
 def test_result_schema_is_closed_and_described(cli):
     found = list(objects(json.loads(cli("schema", "--result").out)))
-    assert len(found) == 12
+    assert len(found) == 13
     for part in found:
         assert part["additionalProperties"] is False
         always = [name for name in part["properties"] if name not in OPTIONAL]

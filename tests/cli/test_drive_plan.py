@@ -385,16 +385,15 @@ def test_no_sprocket_is_called_chain(cli, drive):
 
 
 def test_a_cassette_is_one_part(four_cogs):
-    sprockets = {
+    lives = {
+        "chain": Life(1.0, 7000.0),
         "ring": LowerBound(1.0, 9000.0),
         "cassette 13T": Life(1.0, 5000.0),
         "cassette 15T": Life(1.0, 4000.0),
         "cassette 17T": LowerBound(1.0, 9000.0),
         "cassette 19T": LowerBound(1.0, 9000.0),
     }
-    found = SimpleNamespace(
-        drive=load_drive(four_cogs), chain=Life(1.0, 7000.0), sprockets=sprockets, failed={}
-    )
+    found = SimpleNamespace(drive=load_drive(four_cogs), earliest_lives=lives, failed={})
     lives = part_lives(found)
     assert {name: (type(life), life.hours_run) for name, life in lives.items()} == {
         "chain": (Life, 7000.0),

@@ -14,7 +14,7 @@ from wearsim.drive.said_of_sprockets import said_of_sprockets
 from wearsim.errors import WearsimError
 from wearsim.notebook import html_rows, one_line
 from wearsim.result import Life, LowerBound, WearResult
-from wearsim.result.ends import PartEnd, part_ends
+from wearsim.result.ends import PartEnd, before_wear, earliest_life, first_end, part_ends
 from wearsim.result.events import Event, drive_events
 from wearsim.result.lives import hours
 from wearsim.result.second_opinions import SecondOpinions
@@ -199,8 +199,12 @@ class DriveLife:
 
     @property
     def named_lives(self) -> dict[str, Life | LowerBound]:
-        """Lives of all parts by what they are in words."""
-        return {f"life of the {name}": life for name, life in self.parts.items()}
+        """Lives of all parts by what they are in words, those that wear does not end first by that too."""
+        firsts = [first for name in self.parts if (first := before_wear(self.ends, name))]
+        return {
+            **{f"life of the {name}": life for name, life in self.parts.items()},
+            **{f"life of the {first.part} by {first.mode}": first.life for first in firsts},
+        }
 
     @property
     def chain(self) -> Life | LowerBound:
@@ -217,20 +221,31 @@ class DriveLife:
 
     @property
     def parts(self) -> dict[str, Life | LowerBound]:
-        """Life of the chain and of every sprocket."""
+        """Life of the chain and of every sprocket by wear."""
         return {CHAIN: self.chain, **self.sprockets}
 
     @property
+    def earliest_lives(self) -> dict[str, Life | LowerBound]:
+        """Life of the chain and of every sprocket by what ends it first."""
+        return {name: earliest_life(name, life, self.ends) for name, life in self.parts.items()}
+
+    @property
     def first(self) -> str:
-        """The part that ends first; empty where none ends within the horizon."""
-        ended = {name: life.hours for name, life in self.parts.items() if isinstance(life, Life)}
-        return min(ended, key=ended.__getitem__, default="")
+        """The part that ends first, by whatever mode; empty where none is known to end."""
+        first = first_end(self.ends)
+        return "" if first is None else first.part
+
+    @property
+    def first_worn(self) -> str:
+        """The part that wears out first; empty where none does within the horizon."""
+        worn = {name: life.hours for name, life in self.parts.items() if isinstance(life, Life)}
+        return min(worn, key=worn.__getitem__, default="")
 
     @property
     def life(self) -> Life | LowerBound:
-        """Life of the part that ends first, or how long all live at least."""
-        parts = self.parts
-        return parts[self.first] if self.first else min(parts.values(), key=lambda life: life.hours_run)
+        """Life of the part that wears out first, or how long all live at least."""
+        parts, first = self.parts, self.first_worn
+        return parts[first] if first else min(parts.values(), key=lambda life: life.hours_run)
 
     def band(self, name: str) -> tuple[Life | LowerBound, Life | LowerBound]:
         """Return the life of a part at the high and at the low end of its wear coefficient.
@@ -271,7 +286,11 @@ class DriveLife:
     def ends(self) -> tuple[PartEnd, ...]:
         """Everything that may end a part, that which comes first at the head."""
         bands = {name: self.band(name) for name in self.parts}
-        pitting = {name: life for one in self.results.values() for name, life in _named_fatigue(one).items()}
+        pitting = {
+            f"{name}_fatigue": life
+            for name, result in self.results.items()
+            for life in result.fatigue.values()
+        }
         return part_ends({**self.parts, **pitting}, bands, self.reference.ratings)
 
     @property
@@ -281,10 +300,15 @@ class DriveLife:
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """What happens to the chain and the sprockets when, in the order of time."""
-        limit = 100.0 * self.drive.driver.drive.joint.elongation_limit
-        history = self.reference.history_columns
-        return drive_events(self.drive.driver.case.inputs, history, self.chain, limit, self.sprockets)
+        """What happens to the chain and the sprockets when, in the order of time, replaced as planned."""
+        from wearsim.drive.maintenance import drive_plan  # which is made of this
+
+        driver = self.drive.driver
+        wheels = {name: wheel.name for wheel in self.drive.wheels for name in wheel.parts}
+        ends = [replace(end, part=wheels.get(end.part, end.part)) for end in self.ends]
+        replaced = {name: stop.hours for stop in drive_plan(self).first_stops for name in stop.parts}
+        limit = 100.0 * driver.drive.joint.elongation_limit
+        return drive_events(driver.case.inputs, self.reference.history_columns, limit, ends, replaced)
 
     @property
     def overloaded(self) -> tuple[RatingFinding, ...]:
@@ -307,8 +331,3 @@ class DriveLife:
         first = self.practice.warnings if self.practice else ()
         others = (text for text in self.doubts if text not in first)
         return (*first, *rating_warnings(self.reference.ratings), *others)
-
-
-def _named_fatigue(result: WearResult) -> dict[str, Life | LowerBound]:
-    """Return lives of a sprocket by contact fatigue under the name of the sprocket."""
-    return {f"{result.case}_fatigue": life for life in result.fatigue.values()}

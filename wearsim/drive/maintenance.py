@@ -119,15 +119,16 @@ def drive_plan(found: DriveLife) -> DrivePlan:
 
 
 def part_lives(found: DriveLife) -> dict[str, Life | LowerBound]:
-    """Return the lives of chain and sprockets; a cassette lives as long as the cog that dies first.
+    """Return the lives of chain and sprockets by what ends each first; a cassette's is that of its first cog.
 
     One whose run has failed is left out, with its cassette.
     """
-    lives = {CHAIN: found.chain}
+    earliest = found.earliest_lives
+    lives = {CHAIN: earliest[CHAIN]}
     for wheel in found.drive.wheels:
         if not found.failed.keys().isdisjoint(wheel.parts):
             continue
-        cogs = [found.sprockets[name] for name in wheel.parts]
+        cogs = [earliest[name] for name in wheel.parts]
         lives[wheel.name] = min(cogs, key=lambda life: (life.hours_run, isinstance(life, LowerBound)))
     return lives
 

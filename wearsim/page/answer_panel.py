@@ -25,7 +25,6 @@ from wearsim.report.answer import (
     findings,
     headline,
     overload_text,
-    result_events,
 )
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
@@ -148,7 +147,7 @@ class AnswerPanel:
             row_list((label, text) for label, text in findings(result) if label not in shown)
             if result.practice is not None:
                 heading("What ends first, published rules, events")
-                row_list(chain_rows(result.ends, result.practice, result_events(result)))
+                row_list(chain_rows(result.ends, result.practice, result.events))
             assumption_list(taken, defaults)
 
     def _fill_margins(self, found: Sequence[Margin]) -> None:

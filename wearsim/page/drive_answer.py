@@ -25,7 +25,7 @@ from wearsim.report.html.charts import Chart
 from wearsim.report.html.tooth_chart import worn_out_chart
 from wearsim.report.text_lines import listed
 from wearsim.result import Life, LowerBound, WearResult
-from wearsim.result.lives import hours
+from wearsim.result.ends import first_hours
 
 _ROUGH_PHASES, _ROUGH_NODES = 2, 101
 """Most of what a first estimate takes of a drive."""
@@ -63,7 +63,7 @@ class DriveAnswer:
 
 def drive_headline(found: DriveLife) -> str:
     """Return when something is replaced first and what, with the word where the drive is overloaded."""
-    text = hours(found.life) + (f", {found.first} first" if found.first else "")
+    text = first_hours(found.ends, found.life) + (f", {found.first} first" if found.first else "")
     if found.failed:
         text += f", nothing known of {listed(list(found.failed))}"
     return f"{text} (overloaded)" if found.overloaded else text

@@ -22,7 +22,7 @@ from wearsim.report.drive.sheet import (
 )
 from wearsim.report.html.charts import Chart
 from wearsim.report.text_lines import unbroken
-from wearsim.result.lives import hours
+from wearsim.result.ends import first_hours
 
 
 class DrivePanel:
@@ -117,7 +117,7 @@ class DrivePanel:
         self._life.clear()
         with self._life:
             ui.label(found.drive.title).classes("ws-title").props("role=heading aria-level=2")
-            ui.label(hours(found.life)).classes("ws-hours")
+            ui.label(first_hours(found.ends, found.life)).classes("ws-hours")
             ui.label(unbroken(first_text(drive_plan(found))))
             if found.overloaded:
                 ui.label(ratings_text(found)).classes("ws-overloaded")

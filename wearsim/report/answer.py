@@ -11,8 +11,8 @@ from wearsim.drive.drive_result import DriveLife
 from wearsim.quantities import DAYS_OF_YEAR, grouped
 from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, LimitState, LowerBound, WearResult
-from wearsim.result.ends import JOINT_WEAR, TOOTH_WEAR, PartEnd, end_rows, first_end
-from wearsim.result.events import Event, drive_events, event_rows
+from wearsim.result.ends import PartEnd, before_wear, end_rows, first_hours, wear_only
+from wearsim.result.events import Event, event_rows
 from wearsim.result.lives import hours
 from wearsim.result.second_opinions import SecondOpinions, practice_text, rule_rows
 from wearsim.result.service import service_measures
@@ -45,8 +45,7 @@ _LEAST_AREA = 1e-10
 
 def headline(result: WearResult) -> str:
     """Return the hours of what ends first, with the word where the drive is overloaded."""
-    first = first_end(result.ends)
-    text = hours(result.life) if first is None or first.hours is None else f"{grouped(first.hours)} h"
+    text = first_hours(result.ends, result.life)
     return f"{text} (overloaded)" if result.overloaded else text
 
 
@@ -59,8 +58,7 @@ def beyond_ratings(overloaded: Sequence[RatingFinding]) -> str:
 def practice_line(result: WearResult) -> str:
     """Return what published rules say of the chain, and whether that is within its band."""
     assert result.practice is not None
-    low, high = result.bands["chain"]
-    agrees = result.practice.within(low.hours_run, high.hours_run)
+    agrees = result.practice.within(result.bands["chain"])
     return f"{'' if agrees else 'outside the band of the chain: '}{practice_text(result.practice)}"
 
 
@@ -153,7 +151,7 @@ def _explained(result: WearResult) -> list[tuple[str, str]]:
     """Return what ends first, each published rule and what happens when, of a chain."""
     if result.practice is None:
         return []
-    return chain_rows(result.ends, result.practice, result_events(result))
+    return chain_rows(result.ends, result.practice, result.events)
 
 
 def chain_rows(
@@ -172,15 +170,6 @@ def chain_rows(
         ],
     }
     return [("" if i else label, text) for label, texts in rows.items() for i, text in enumerate(texts)]
-
-
-def result_events(result: WearResult) -> tuple[Event, ...]:
-    """Return what happens to the chain and the sprocket of a result when; none where no chain wraps it."""
-    limit = next((one.limit for one in result.limits if one.name == "elongation_percent"), None)
-    if limit is None or "chain" not in result.parts:
-        return ()
-    sprocket = {"sprocket": result.parts["sprocket"]}
-    return drive_events(result.inputs, result.history_columns, result.parts["chain"], limit, sprocket)
 
 
 def findings(result: WearResult) -> list[tuple[str, str]]:
@@ -207,7 +196,9 @@ def overload_text(result: WearResult) -> str:
     found = "; ".join([f"{used} of the rating"] * bool(used) + short)
     counts = pressure_that_counts(result)
     found += f"; {counts}, which counts for published rules" if counts else ""
-    return f"{found}; life counts wear only, fatigue may end it sooner"
+    if wear_only(result.ends):
+        return f"{found}; life counts wear only, fatigue may end it sooner"
+    return f"{found}; plate fatigue may end it sooner"
 
 
 def pressure_that_counts(result: WearResult) -> str:
@@ -351,9 +342,9 @@ def ending(result: WearResult) -> str:
 
 def _life(result: WearResult) -> str:
     """Return what ends first, with what stands against its hours in the same line."""
-    text, first = _wear_life(result), first_end(result.ends)
-    if first is not None and first.mode not in (JOINT_WEAR, TOOTH_WEAR):
-        text = f"{grouped(first.hours or 0.0)} h by {first.mode} of the {first.part}; by wear {text}"
+    text, first = _wear_life(result), before_wear(result.ends)
+    if first is not None:
+        text = f"{hours(first.life)} by {first.mode} of the {first.part}; by wear {text}"
     if result.practice is not None and result.practice.outside:
         text = f"outside any published practice ({result.practice.outside}): {text}"
     beyond = beyond_ratings(result.overloaded)

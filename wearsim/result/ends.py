@@ -1,5 +1,6 @@
 """What ends a part first, by whatever mode: wear, contact fatigue, or a rating of its chain."""
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -7,11 +8,12 @@ from typing import Any
 from wearsim.chain.power_rating import IMPACT_BAND, RATED_HOURS
 from wearsim.chain.selection import GALLING, IMPACT, PLATES, RatingFinding
 from wearsim.quantities import grouped
-from wearsim.result.lives import Life, LowerBound
+from wearsim.result.lives import Life, LowerBound, hours
 
 CHAIN, SPROCKET = "chain", "sprocket"
 
 JOINT_WEAR, TOOTH_WEAR, PITTING = "joint wear", "tooth wear", "contact fatigue"
+WEAR = JOINT_WEAR, TOOTH_WEAR
 
 NO_MORE_HOURS = 1e5
 """Hours above which a mode is not what ends a chain, and no number is told."""
@@ -37,6 +39,12 @@ class PartEnd:
     high: float | None = None
     reached: bool = True  # whether it ends then, or not before
     verdict: str = ""  # how it stands to its rating
+
+    @property
+    def life(self) -> Life | LowerBound:
+        """The hours as a life whose cycles nobody counts."""
+        hours = self.hours or 0.0
+        return Life(0.0, hours) if self.reached else LowerBound(0.0, hours)
 
     @property
     def ends(self) -> bool:
@@ -121,20 +129,62 @@ def first_end(ends: Sequence[PartEnd]) -> PartEnd | None:
     return next((end for end in ends if end.ends), None)
 
 
+def earliest_life(part: str, life: Life | LowerBound, ends: Sequence[PartEnd]) -> Life | LowerBound:
+    """Return the life of a part by what ends it first: that by wear where nothing ends it sooner.
+
+    A part that contact fatigue damages from the start has no life to plan with, and keeps that by wear.
+
+    Examples
+    --------
+    >>> ends = [PartEnd("chain", "roller and bush impact", 3.0), PartEnd("sprocket", "tooth wear", 2.0)]
+    >>> earliest_life("chain", LowerBound(800.0, 4.0), ends), earliest_life("sprocket", Life(90.0, 2.0), ends)
+    (Life(cycles=600.0, hours=3.0), Life(cycles=90.0, hours=2.0))
+    """
+    first = min((end.hours for end in ends if end.ends and end.part == part and end.hours), default=math.inf)
+    return life if first >= life.hours_run else Life(life.cycles_run * first / life.hours_run, first)
+
+
+def first_hours(ends: Sequence[PartEnd], life: Life | LowerBound) -> str:
+    """Return in words when something ends first; how long all last where nothing is known to end."""
+    first = first_end(ends)
+    return hours(life if first is None else first.life)
+
+
+def first_end_keys(ends: Sequence[PartEnd]) -> dict[str, Any]:
+    """Return what ends first as keys of JSON, None where nothing is known to end."""
+    first = first_end(ends)
+    names = ("hours", "mode", "part")
+    return {f"first_end_{name}": None if first is None else getattr(first, name) for name in names}
+
+
+def before_wear(ends: Sequence[PartEnd], part: str = "") -> PartEnd | None:
+    """Return what ends a part, or anything, before wear does; None where wear comes first."""
+    first = first_end([end for end in ends if part in ("", end.part)])
+    return None if first is None or first.mode in WEAR else first
+
+
+def wear_only(ends: Sequence[PartEnd]) -> bool:
+    """Return whether no hours are known of what ends a chain but wear."""
+    return all(end.mode in (*WEAR, PITTING) for end in ends if end.ends)
+
+
 def ends_json(ends: Sequence[PartEnd]) -> list[dict[str, Any]]:
     """Return what may end the parts as JSON."""
     return [
         {
             "part": end.part,
             "mode": end.mode,
-            "life_hours": end.hours if end.reached else None,
-            "life_hours_at_least": None if end.reached else end.hours,
-            "life_hours_low": end.low,
-            "life_hours_high": end.high,
+            **_end_keys("life_hours", end.hours, end.reached),
+            **_end_keys("life_hours_low", end.low, end.reached),
+            **_end_keys("life_hours_high", end.high, end.reached),
             "verdict": end.verdict,
         }
         for end in ends
     ]
+
+
+def _end_keys(name: str, at: float | None, reached: bool) -> dict[str, float | None]:
+    return {name: at if reached else None, f"{name}_at_least": None if reached else at}
 
 
 END_HEAD = ("part", "mode", "hours", "90 % band", "rating")

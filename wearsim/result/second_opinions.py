@@ -1,11 +1,13 @@
 """What the published rules say of a chain beside its computed life."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from wearsim.quantities import grouped
-from wearsim.result.ends import NO_MORE_HOURS
+from wearsim.result.ends import NO_MORE_HOURS, Lives
+from wearsim.result.lives import Life
 
 if TYPE_CHECKING:
     from wearsim.chain.practice_drive import PracticeDrive
@@ -29,10 +31,13 @@ class SecondOpinions:
     Examples
     --------
     >>> from wearsim.chain.practice_drive import PracticeDrive
+    >>> from wearsim.result import LowerBound
     >>> drive = PracticeDrive(19.05, 21, 57 / 21, 120.0, 124, 3750.0, 89.3, 5.72)
     >>> found = second_opinions(drive)
-    >>> found.within(3200.0, 25_000.0), found.within(61_640.0, 102_700.0)
+    >>> found.within((Life(1e6, 3200.0), Life(8e6, 25_000.0))), found.within((Life(1e6, 9e3), Life(2e6, 2e4)))
     (True, False)
+    >>> found.within((LowerBound(1e5, 330.0), LowerBound(1e6, 3000.0)))
+    True
     """
 
     rules: tuple[RuleLife, ...]
@@ -56,14 +61,16 @@ class SecondOpinions:
         poorer = self.lubrication if self.lubrication_factor < 1.0 else ""
         return tuple(filter(None, (poorer, outside)))
 
-    def within(self, low: float, high: float) -> bool:
-        """Return whether the mean of the rules lies in the band of a computed life [h].
+    def within(self, band: Lives) -> bool:
+        """Return whether the mean of the rules lies in the band of a life, as far as that is known.
 
         Hours above 100 000 are all alike.
         """
         if self.mean_hours is None:
             return True
-        return min(low, NO_MORE_HOURS) <= min(self.mean_hours, NO_MORE_HOURS) <= high
+        low, high = band
+        most = high.hours if isinstance(high, Life) else math.inf
+        return min(low.hours_run, NO_MORE_HOURS) <= min(self.mean_hours, NO_MORE_HOURS) <= most
 
 
 def second_opinions(*duty: "PracticeDrive") -> SecondOpinions:

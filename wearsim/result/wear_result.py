@@ -16,7 +16,8 @@ from wearsim.errors import WearsimError
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.notebook import html_rows, one_line
-from wearsim.result.ends import Lives, PartEnd, ends_json, part_ends
+from wearsim.result.ends import PITTING, Lives, PartEnd, before_wear, ends_json, first_end_keys, part_ends
+from wearsim.result.events import Event, drive_events, events_json
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
 from wearsim.result.lives import Life, LimitState, LowerBound, first_life, life_keys
 from wearsim.result.second_opinions import SecondOpinions, opinions_json
@@ -203,9 +204,11 @@ class WearResult:
 
     @property
     def named_lives(self) -> dict[str, Life | LowerBound]:
-        """Lives by what they are in words: by wear, then by contact fatigue."""
+        """Lives by what they are in words: by wear, by contact fatigue, and by what else ends it first."""
         fatigue = {f"{name.replace('_', ' ')} life": life for name, life in self.fatigue.items()}
-        return {"life": self.life, **fatigue}
+        first = before_wear(self.ends)
+        other = {} if first is None or first.mode == PITTING else {f"life by {first.mode}": first.life}
+        return {"life": self.life, **fatigue, **other}
 
     @property
     def failed(self) -> dict[str, WearsimError]:
@@ -218,6 +221,14 @@ class WearResult:
         wear = self.parts if "chain" in self.parts else {"sprocket": self.life, **self.parts}
         bands = self.bands or {"sprocket": (self.life_low, self.life_high)}
         return part_ends(wear, bands, self.ratings)
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """What happens to the chain and the sprocket when, in the order of time; none without a chain."""
+        limit = next((one.limit for one in self.limits if one.name == "elongation_percent"), None)
+        if limit is None or "chain" not in self.parts:
+            return ()
+        return drive_events(self.inputs, self.history_columns, limit, self.ends)
 
     @property
     def overloaded(self) -> tuple[RatingFinding, ...]:
@@ -265,7 +276,9 @@ class WearResult:
             **self._parts(),
             "limits": [asdict(state) for state in self.limits],
             **self._rated(),
+            **first_end_keys(self.ends),
             "ends": ends_json(self.ends),
+            **({"events": events_json(self.events)} if self.events else {}),
             **({} if self.practice is None else {"practice": opinions_json(self.practice)}),
             "max_depth_mm": self.max_depth,
             "max_depth_arc_length_mm": self.max_depth_arc_length,

@@ -32,6 +32,7 @@ from wearsim.report.drive.sheet import (
 )
 from wearsim.report.text_lines import counted, listed, numbered, row
 from wearsim.result import Life
+from wearsim.result.ends import wear_only
 from wearsim.result.lives import hours
 from wearsim.result.second_opinions import span_text
 
@@ -84,7 +85,8 @@ def _band(found: DriveLife) -> list[str]:
     if practice is None or practice.span is None or practice_agrees(found):
         return [whole, short]
     shocks = f" with f1 = {practice.shock_factor:g}" if practice.shock_factor != 1.0 else ""
-    rules = f"{short}; by published rules{shocks} {span_text(practice.span)}"
+    whose = "" if found.first_worn == CHAIN else "chain "
+    rules = f"{short}; {whose}by published rules{shocks} {span_text(practice.span)}"
     return [rules, f"{short}; published rules{shocks} differ"]
 
 
@@ -108,7 +110,9 @@ def _chain(found: DriveLife) -> list[str]:
     if not against:
         return _part(found, CHAIN)
     forms = _part(found, CHAIN)
-    return [*(f"{form}; {against}" for form in forms), *(f"{form}; {worst}" for form in forms)]
+    first = forms[-1].partition("; by wear")[0]
+    lines = [f"{form}; {why}" for why in (against, worst) for form in (*forms, first)]
+    return [*lines, f"{first}; beyond its rating"]
 
 
 def _part(found: DriveLife, name: str) -> list[str]:
@@ -164,7 +168,8 @@ def _ratings(found: DriveLife) -> list[str]:
     over = f"OVERLOADED: {worst}" + (f" and {others} more" if others else "")
     counts = pressure_that_counts(driver)
     whole = f"{over}; {counts}" if counts else over
-    return [f"{whole}; life counts wear only", whole, over]
+    more = "life counts wear only" if wear_only(found.ends) else "plates may fail sooner"
+    return [f"{whole}; {more}", whole, over]
 
 
 def _worn_most(found: DriveLife) -> list[str]:

@@ -11,7 +11,8 @@ from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.drive.plan_words import rule_text
 from wearsim.report.text_lines import row, table_lines
-from wearsim.result import LowerBound, life_keys
+from wearsim.result import Life, LowerBound, life_keys
+from wearsim.result.ends import before_wear
 from wearsim.result.lives import hours
 from wearsim.result.service import service_measures
 
@@ -98,7 +99,7 @@ def _stop(plan: DrivePlan, stop: Stop) -> dict[str, Any]:
 
 def plan_text(plan: DrivePlan, source: str) -> str:
     """Return the plan as ``wearsim maintain`` prints it."""
-    lives = ", ".join(f"{name} {hours(life).replace('> ', '>= ')}" for name, life in plan.lives.items())
+    lives = ", ".join(_life(plan, name, life) for name, life in plan.lives.items())
     rows = [
         *_cheapest(plan),
         ("Replace", rule_text(plan.best)),
@@ -110,6 +111,11 @@ def plan_text(plan: DrivePlan, source: str) -> str:
     return "\n".join(
         [plan.drive.title, row("Lives", lives), *_table(plan), *(row(label, text) for label, text in rows)]
     )
+
+
+def _life(plan: DrivePlan, name: str, life: Life | LowerBound) -> str:
+    first = before_wear(plan.found.ends, name)
+    return f"{name} {hours(life).replace('> ', '>= ')}" + (f" by {first.mode}" if first else "")
 
 
 def _table(plan: DrivePlan) -> list[str]:

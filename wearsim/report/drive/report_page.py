@@ -30,13 +30,20 @@ from wearsim.report.drive.page_tables import (
     shaft_table,
     span_table,
 )
-from wearsim.report.drive.sheet import against_hours, first_text, jumping_text, taken_for_granted, within_text
+from wearsim.report.drive.sheet import (
+    against_hours,
+    first_text,
+    jumping_text,
+    outside_practice,
+    taken_for_granted,
+    within_text,
+)
 from wearsim.report.html.page_content import HtmlTable, chain_tables
 from wearsim.report.html.sketch import sketch
 from wearsim.report.text_lines import unbroken
 from wearsim.report.worn_flank import around_flank, worn_flanks
 from wearsim.result import WearResult
-from wearsim.result.lives import hours
+from wearsim.result.ends import first_hours
 
 _TEMPLATES = Path(__file__).parent / "templates"
 _STYLE = Path(html.__file__).with_name("style.css")
@@ -93,7 +100,7 @@ class SheetPage:
     lives: PageTable
     bars: Markup
     chain_tables: list[HtmlTable]
-    against: str  # why the chain may end before its life by wear; empty where nothing says so
+    against: str  # which ratings may end the chain before its hours; empty where it is within them
     plan: PageTable
     plan_until: str
     plan_rule: str
@@ -153,7 +160,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
     return SheetPage(
         title=drive.title,
         head=head.rows,
-        life=hours(found.life),
+        life=f"{outside_practice(found)}{first_hours(found.ends, found.life)}",
         first=unbroken(first_text(plan)),
         overloaded=overload_text(driver),
         within=within_text(driver),

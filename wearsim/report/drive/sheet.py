@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.chain.selection import RATED_FOR_HOURS
+from wearsim.chain.selection import RATED_FOR_HOURS, deciding
 from wearsim.drive.drive_result import CHAIN, DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan
 from wearsim.drive.plan import Stop
@@ -19,12 +19,13 @@ from wearsim.report.answer import (
     jumping_margin,
     overload_text,
     service_text,
+    used_text,
 )
 from wearsim.report.drive.layout import layout_json
 from wearsim.report.drive.plan_words import ordinal
 from wearsim.report.text_lines import listed, stated_and_defaults
 from wearsim.result import Life, LowerBound, WearResult, life_keys
-from wearsim.result.ends import JOINT_WEAR, ends_json, first_end
+from wearsim.result.ends import before_wear, ends_json, first_end_keys
 from wearsim.result.events import events_json
 from wearsim.result.lives import hours
 from wearsim.result.second_opinions import opinions_json, practice_text
@@ -57,22 +58,21 @@ def found_rows(found: DriveLife) -> list[tuple[str, str]]:
 
 def practice_agrees(found: DriveLife) -> bool:
     """Return whether the published rules lie within the band of the chain."""
-    low, high = found.band(CHAIN)
-    return found.practice is None or found.practice.within(low.hours_run, high.hours_run)
+    return found.practice is None or found.practice.within(found.band(CHAIN))
 
 
 def against_hours(found: DriveLife, only_worst: bool = False) -> str:
-    """Return in words why the chain may end before its life by wear; empty where nothing says so."""
-    first, overloaded = first_end(found.ends), list(found.overloaded)
+    """Return in words which ratings may end the chain before its hours; empty where it is within them."""
+    overloaded = list(found.overloaded)
     if only_worst:
         rated = [finding for finding in overloaded if finding.name in RATED_FOR_HOURS]
         overloaded = [max(rated, key=lambda finding: finding.used)] if rated else []
-    reasons = [beyond_ratings(overloaded)]
-    if first is not None and first.part == CHAIN and first.mode != JOINT_WEAR:
-        reasons.insert(0, f"by {first.mode} {grouped(first.hours or 0.0)} h")
-    if found.practice is not None and found.practice.outside:
-        reasons.insert(0, "outside any published practice")
-    return "; ".join(filter(None, reasons))
+    return beyond_ratings(overloaded)
+
+
+def outside_practice(found: DriveLife) -> str:
+    """Return what stands before the hours of the chain where no published rule has been in use."""
+    return "outside any published practice: " if found.practice is not None and found.practice.outside else ""
 
 
 def explained_rows(found: DriveLife) -> list[tuple[str, str]]:
@@ -172,7 +172,10 @@ def part_words(found: DriveLife, name: str) -> list[str]:
     about = part_ending(found, name)
     if name != CHAIN:
         about = f"{found.results[name].inputs['sprocket']['teeth']} teeth, {about}"
-    return [hours(life), *([f"({service})"] if service else []), about]
+    first = before_wear(found.ends, name)
+    text = f"{hours(first.life)} by {first.mode}; by wear {hours(life)}" if first else hours(life)
+    before = outside_practice(found) if name == CHAIN else ""
+    return [f"{before}{text}", *([f"({service})"] if service else []), about]
 
 
 def part_ending(found: DriveLife, name: str) -> str:
@@ -245,8 +248,8 @@ def band_text(found: DriveLife) -> str:
 
 
 def _banded(found: DriveLife) -> str:
-    """Return whose band is shown: that of the part that ends first, of the first sprocket if none does."""
-    return found.first or next(iter(found.results))
+    """Return whose band is shown: that of the part worn out first, of the first sprocket if none is."""
+    return found.first_worn or next(iter(found.results))
 
 
 def within_text(result: WearResult) -> str:
@@ -254,8 +257,11 @@ def within_text(result: WearResult) -> str:
     used = [one for one in result.ratings if not one.at_least and not one.name.startswith("elongation")]
     if not used:
         return "no rating applies"
-    most = max(used, key=lambda finding: finding.used)
-    return f"within all of them; most used is {most.name}, {grouped(100.0 * most.used)} %"
+    outside = [used_text(one) for one in used if not one.ok]
+    decide = deciding(used) if outside else used
+    most = max(decide, key=lambda finding: finding.used, default=None)
+    which = "all of them" if not outside else f"those that decide, outside {', '.join(outside)}"
+    return f"within {which}" + (f"; most used is {most.name}, {grouped(100.0 * most.used)} %" if most else "")
 
 
 def band_source(found: DriveLife) -> str:
@@ -298,7 +304,8 @@ def drive_json(found: DriveLife) -> dict[str, Any]:
         **life_keys("life_hours", found.life),
         **life_keys("life_hours_low", low),
         **life_keys("life_hours_high", high),
-        "first": found.first or None,
+        "first": found.first_worn or None,
+        **first_end_keys(found.ends),
         **life_keys("chain_life_hours", found.chain),
         **service_keys(drive.driver.case.inputs, found.life),
         "overloaded": bool(found.overloaded),

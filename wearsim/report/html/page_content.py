@@ -10,7 +10,7 @@ from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.citation import apa
 from wearsim.quantities import grouped
-from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, overload_text, result_events
+from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, overload_text
 from wearsim.report.comparison import comparison_cells, differing_limits
 from wearsim.report.figures import comparison_figures, picture
 from wearsim.report.flank_view import case_of
@@ -24,7 +24,7 @@ from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.report.rating import RATING_HEAD, rating_cells
 from wearsim.report.text_lines import stated_and_defaults
 from wearsim.result import Life, WearResult
-from wearsim.result.ends import END_HEAD, PartEnd, end_rows
+from wearsim.result.ends import END_HEAD, PartEnd, before_wear, end_rows, first_hours, wear_only
 from wearsim.result.events import EVENT_HEAD, Event, event_rows
 from wearsim.result.lives import hours
 from wearsim.result.second_opinions import RULE_HEAD, SecondOpinions, practice_text, rule_rows
@@ -47,10 +47,12 @@ class DrivePage:
     name: str  # of the file, and of the drive
     title: str  # of the file, and of the drive
     brief: bool  # whether the page is the short one
-    life: str  # the answer, and what ended it
-    ending: str  # the answer, and what ended it
+    first: str  # the answer: hours of what ends first
+    ending: str  # what ended it
+    life: str  # by wear, with the coefficient as given
     # by how much the drive is outside the ratings of its load; empty where it is not
     overloaded: str
+    wear_only: bool  # whether no hours are known but those of wear
     reached: bool  # whether it is a life and not a bound
     low: str  # the lives at the ends of the band, and where that comes from
     high: str  # the lives at the ends of the band, and where that comes from
@@ -102,9 +104,11 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         name=name,
         title=result.title,
         brief=brief,
+        first=first_hours(result.ends, result.life),
+        ending=_ending(result),
         life=hours(result.life),
-        ending=ending(result),
         overloaded=overload_text(result),
+        wear_only=wear_only(result.ends),
         reached=isinstance(result.life, Life),
         low=hours(result.life_low),
         high=hours(result.life_high),
@@ -114,7 +118,7 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         margins=margins(result, case),
         rating_head=RATING_HEAD,
         ratings=rating_cells(result.ratings),
-        chain_tables=chain_tables(result.ends, result.practice, result_events(result)),
+        chain_tables=chain_tables(result.ends, result.practice, result.events),
         tooth=tooth,
         charts=charts,
         sketch=Markup() if brief else sketch(case.drive.scene(case.engaged_every)),
@@ -127,6 +131,11 @@ def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
         versions=[("page written by", f"wearsim {__version__}"), *result.environment.items()],
         citation=apa(result.environment["wearsim"]),
     )
+
+
+def _ending(result: WearResult) -> str:
+    first, worn = before_wear(result.ends), ending(result)
+    return f"by {first.mode} of the {first.part}; by wear {hours(result.life)} {worn}" if first else worn
 
 
 def chain_tables(
