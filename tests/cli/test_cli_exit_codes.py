@@ -45,7 +45,7 @@ def test_user_mistakes_are_2_and_one_message(cli, monkeypatch, tmp_path, argumen
 @pytest.mark.parametrize("error", [ContactError, ConvergenceError, GeometryError])
 @pytest.mark.parametrize("options", [(), ("--json",)])
 def test_failed_calculation_is_3(cli, drive, monkeypatch, error, options):
-    monkeypatch.setattr("wearsim.simulation.simulate", raising(error("flank: must hold")))
+    monkeypatch.setattr("wearsim.drive.simulate.simulate_single", raising(error("flank: must hold")))
     done = cli("life", drive(), *options)
     assert done.code == 3
     assert "flank: must hold" in done.err
@@ -53,7 +53,7 @@ def test_failed_calculation_is_3(cli, drive, monkeypatch, error, options):
 
 
 def test_bug_is_1_and_says_so(cli, drive, monkeypatch):
-    monkeypatch.setattr("wearsim.simulation.simulate", raising(ZeroDivisionError("by zero")))
+    monkeypatch.setattr("wearsim.drive.simulate.simulate_single", raising(ZeroDivisionError("by zero")))
     done = cli("life", drive())
     assert (done.code, done.out) == (1, "")
     assert "bug in wearsim: ZeroDivisionError: by zero" in done.err
@@ -62,7 +62,7 @@ def test_bug_is_1_and_says_so(cli, drive, monkeypatch):
 
 
 def test_interrupt_is_130(cli, drive, monkeypatch):
-    monkeypatch.setattr("wearsim.simulation.simulate", raising(KeyboardInterrupt()))
+    monkeypatch.setattr("wearsim.drive.simulate.simulate_single", raising(KeyboardInterrupt()))
     done = cli("life", drive())
     assert (done.code, done.out) == (130, "")
     assert done.err.startswith("interrupted")
@@ -70,7 +70,7 @@ def test_interrupt_is_130(cli, drive, monkeypatch):
 
 @pytest.mark.parametrize("error", [ZeroDivisionError("x"), ContactError("x")])
 def test_debug_shows_the_traceback(cli, drive, monkeypatch, error):
-    monkeypatch.setattr("wearsim.simulation.simulate", raising(error))
+    monkeypatch.setattr("wearsim.drive.simulate.simulate_single", raising(error))
     done = cli("life", drive(), "--debug")
     assert "Traceback" in done.err
     assert "in simulate" in done.err

@@ -285,7 +285,7 @@ def test_solve_for_without_an_answer_is_4(cli, drive, conforms):
         ("load.tension_N", "it is not in the case"),
         ("sprocket.profile", "it is 'evolute'"),
         ("nothing.at_all", "it is not in the case"),
-        ("title", "it is not in the case"),
+        ("title", "but it is '"),
         ("wear.speed_exponent", "needs a value above 0 to start from"),
     ],
 )

@@ -41,7 +41,7 @@ def test_cases_of_the_same_name_are_refused(cli, drive, tmp_path):
 def test_what_exists_is_refused_before_the_run(cli, drive, tmp_path, monkeypatch, kind):
     out = tmp_path / "out"
     out.mkdir() if kind == "folder" else out.write_text("mine")
-    monkeypatch.setattr("wearsim.simulation.simulate", lambda *given: pytest.fail("was run"))
+    monkeypatch.setattr("wearsim.drive.simulate.simulate_single", lambda *given: pytest.fail("was run"))
     done = cli("life", drive(), "--out", out)
     assert (done.code, done.out) == (2, "")
     assert done.err == f"{out}: must not exist yet, but does: choose another place or --force\n"
@@ -50,7 +50,7 @@ def test_what_exists_is_refused_before_the_run(cli, drive, tmp_path, monkeypatch
 
 
 def test_faulty_case_stops_all_before_the_first_runs(cli, drive, tmp_path, monkeypatch):
-    monkeypatch.setattr("wearsim.simulation.simulate", lambda *given: pytest.fail("was run"))
+    monkeypatch.setattr("wearsim.drive.simulate.simulate_single", lambda *given: pytest.fail("was run"))
     done = cli("life", drive("good"), drive("bad", teeth=3), "--out", tmp_path / "out")
     assert done.code == 2
     assert not (tmp_path / "out").exists()
@@ -73,7 +73,7 @@ def test_force_keeps_the_old_when_the_run_ends_early(cli, drive, tmp_path, monke
     def failing(*given):
         raise error
 
-    monkeypatch.setattr("wearsim.simulation.simulate", failing)
+    monkeypatch.setattr("wearsim.drive.simulate.simulate_single", failing)
     done = cli("life", drive(power_kW=4), "--out", out, "--force")
     assert done.code == (3 if isinstance(error, ConvergenceError) else 130)
     assert names(out) == FILES

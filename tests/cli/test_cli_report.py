@@ -252,7 +252,7 @@ def test_a_case_that_fails_is_left_out(cli, drive, tmp_path, monkeypatch):
             raise ConvergenceError("the life would be wrong")
         return simulate(case, told)
 
-    monkeypatch.setattr("wearsim.simulation.simulate", failing)
+    monkeypatch.setattr("wearsim.drive.simulate.simulate_single", failing)
     out = tmp_path / "out"
     done = cli("report", drive(), drive("worse"), "--out", out)
     assert done.code == 5

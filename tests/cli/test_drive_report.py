@@ -165,7 +165,7 @@ def test_shafts_and_spans_are_those_of_the_layout(lived, page):
     text = unescape(page)
     assert f"efficiency {100 * layout['efficiency']:.2f} %" in text
     assert f"loss: {layout['friction_heat_W']:.3g} W, efficiency" in text
-    assert f"adds {grouped(layout['centrifugal_tension_N'], 3)} N" in text
+    assert f"Centrifugal tension: {grouped(layout['centrifugal_tension_N'], 3)} N" in text
     for span in layout["spans"]:
         assert f">{grouped(span['tension_N'])} N</text>" in page
 
