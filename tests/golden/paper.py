@@ -189,8 +189,9 @@ def written() -> Iterator[tuple[str, str | None]]:
 def cells(path: Path) -> Iterator[str]:
     """Yield the cells of a workbook that hold something."""
     for sheet in openpyxl.load_workbook(path):
+        title = sheet.title
         for row in sheet.iter_rows():
-            yield from (f"{sheet.title} {cell.coordinate} {cell.value}" for cell in row if cell.value)
+            yield from (f"{title} {cell.coordinate} {cell.value}" for cell in row if cell.value is not None)
 
 
 def paper_of(line: str, keep: Path | None) -> Paper:
