@@ -418,6 +418,6 @@ def test_explain_prints_what_is_counted(cli, drive):
     text = cli("life", drive, *short, "--explain").out
     assert " defaults: --explain shows them" in brief
     assert "--explain shows them" not in text
-    assert "Assumes    1 rollers sit where" in text
+    assert "Assumes    1 roller positions minimise" in text
     assert "Band from  factor 3 to either side" in text
     assert text.splitlines()[:4] == brief.splitlines()[:4]

@@ -63,8 +63,8 @@ def compare(
     from wearsim.report.drive.comparison import drives_text, save_drives
 
     drives = [one for one in found.values() if isinstance(one, DriveLife)]
-    singles = [one for one in found.values() if not isinstance(one, DriveLife)]
-    singles = distinct(singles, [str(path) for path in found])
+    runs = {str(path): one for path, one in found.items() if not isinstance(one, DriveLife)}
+    singles = distinct(list(runs.values()), list(runs))
     if out is not None:
         if drives:
             save_drives(drives, out, force)

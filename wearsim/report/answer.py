@@ -405,7 +405,7 @@ def grid_json(grid: "GridStudy") -> dict[str, Any]:
         "quantity": grid.quantity,
         "values": list(grid.values),
         "order": None if math.isnan(grid.order) else grid.order,
-        "error": grid.error,
+        "error": grid.error if math.isfinite(grid.error) else None,
         "richardson": grid.extrapolates,
     }
 

@@ -107,12 +107,12 @@ class GridStudy:
 
     @property
     def error(self) -> float:
-        """Relative error of the finest: Richardson's, else the spread of all three."""
+        """Relative error of the finest: Richardson's, else the spread of all three; inf where it is 0."""
         fine, middle, _ = self.values
         if self.extrapolates:
             return abs(middle - fine) / (math.pow(2.0, self.order) - 1.0) / fine
         spread: float = max(self.values) - min(self.values)
-        return spread / fine
+        return spread / fine if fine > 0.0 else math.inf
 
 
 LEAST_ORDER, MAX_ORDER = 1.5, 2.5

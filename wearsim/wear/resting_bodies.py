@@ -24,6 +24,7 @@ from wearsim.kernels.wrap_wear import (
     PEAK_PRESSURE,
     PRESSURE_EXPONENT,
     REACH,
+    ROLLER_NUMBERS,
     SPEED_EXPONENT,
     TOLERANCE,
     UNBALANCED,
@@ -120,7 +121,7 @@ class WornBodies:
         self.numbers[CASE_DEPTH], self.numbers[CORE_FACTOR] = law.case_depth, law.core_factor
         self.numbers[REACH] = math.ceil(_REACH * contact.roller_radius / step)
         self.numbers[TOLERANCE] = 1e-6
-        self.work = np.zeros((3 + WORK_ROWS, points))
+        self.work = np.zeros((3 + WORK_ROWS, max(points, ROLLER_NUMBERS)))
         self.findings = np.zeros(FINDINGS)
         self.pressures = np.zeros((0, points))
         self.memory = contact.memory()

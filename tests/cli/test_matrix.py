@@ -1,0 +1,81 @@
+"""Every command on every kind of shipped case: an answer, or a reason that is named."""
+
+from pathlib import Path
+
+import pytest
+
+CASES = Path(__file__).parents[2] / "cases"
+COARSE = ("run.life_tolerance=0.1", "run.horizon_hours=20")
+WRAP = ("sprocket.nodes=41", "mechanism.phases=1", *COARSE)
+
+
+def _of_wheels(count: int) -> tuple[str, ...]:
+    return (*(f"sprocket.{number}.nodes=41" for number in range(1, count + 1)), "mechanism.phases=1", *COARSE)
+
+
+KINDS = {
+    "strand": ("16b-20t-oiled.toml", ("sprocket.nodes=51", *COARSE)),
+    "wrap": ("08b-19t-wrap.toml", WRAP),
+    "gears": ("fzg-c14-16t-mild.toml", ("gear.nodes=61", *COARSE)),
+    "table": ("hertz-arc-prescribed.toml", COARSE),
+    "drive": ("drives/packaging-conveyor.toml", _of_wheels(2)),
+    "loop": ("drives/camshaft-loop.toml", _of_wheels(3)),
+    "cassette": ("drives/bicycle-cassette.toml", _of_wheels(2)),
+}
+"""A shipped case of each kind, coarse and short."""
+
+AGES = ("--set", "lubrication.lasts_hours=50", "--set", "lubrication.dry_factor=4")
+COMMANDS = {
+    "check": (),
+    "life": (),
+    "life --verify-grid": (),
+    "compare": (),
+    "report": ("--out", "out"),
+    "loads": (),
+    "profile": (),
+    "export": ("--out", "out.d", "--format", "dxf"),
+    "animate": ("--frames", "2", "--width", "320", "--out", "out.gif"),
+    "maintain": (),
+    "lubricate": AGES,
+    "remaining --hours 10 --depth-mm 0.001": (),
+    "remaining --hours 10 --elongation 0.01": (),
+    "uncertainty --samples 2 --threads 1": (),
+    "sensitivity --dry-run --threads 1": (),
+    "optimise --evaluations 10 --threads 1": (),
+}
+
+NO_CHAIN = "needs a chain that wraps the sprocket"
+NOTHING_ASKED = "optimise: this table is required"
+REASONS = {
+    **{("loads", kind): NO_CHAIN for kind in ("strand", "gears", "table")},
+    **{("maintain", kind): NO_CHAIN for kind in ("strand", "gears", "table")},
+    **{("remaining --hours 10 --elongation 0.01", kind): NO_CHAIN for kind in ("strand", "gears", "table")},
+    **{("profile", kind): "nothing to write" for kind in ("gears", "table")},
+    ("export", "table"): "must have a sprocket or gears to draw",
+    **{
+        (command, kind): "give --sprocket, one of "
+        for command in ("profile", "animate")
+        for kind in ("drive", "loop", "cassette")
+    },
+    **{
+        ("remaining --hours 10 --depth-mm 0.001", kind): "is read on the teeth of one sprocket"
+        for kind in ("drive", "loop", "cassette")
+    },
+    **{("optimise --evaluations 10 --threads 1", kind): NOTHING_ASKED for kind in KINDS},
+}
+"""Why a command has no answer for a kind of case: exit code 2, and these words."""
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_command_answers_or_names_its_reason(cli, tmp_path, monkeypatch, command, kind):
+    monkeypatch.chdir(tmp_path)
+    name, *options = command.split()
+    case, settings = KINDS[kind]
+    chosen = [word for setting in settings for word in ("--set", setting)]
+    done = cli(name, CASES / case, *options, *COMMANDS[command], *chosen)
+    reason = REASONS.get((command, kind))
+    if reason is None:
+        assert done.code == 0, done.err
+    else:
+        assert done.code == 2 and reason in done.err, done.err
