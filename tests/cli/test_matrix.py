@@ -10,7 +10,7 @@ WRAP = ("sprocket.nodes=41", "mechanism.phases=1", *COARSE)
 
 
 def _of_wheels(count: int) -> tuple[str, ...]:
-    return (*(f"sprocket.{number}.nodes=41" for number in range(1, count + 1)), "mechanism.phases=1", *COARSE)
+    return (*(f"sprocket.{number}.nodes=61" for number in range(1, count + 1)), "mechanism.phases=1", *COARSE)
 
 
 KINDS = {
@@ -37,8 +37,8 @@ COMMANDS = {
     "animate": ("--frames", "2", "--width", "320", "--out", "out.gif"),
     "maintain": (),
     "lubricate": AGES,
-    "remaining --hours 10 --depth-mm 0.001": (),
-    "remaining --hours 10 --elongation 0.01": (),
+    "remaining --hours 10 --depth-mm 0.0005 --reading-error-mm 0.0001": (),
+    "remaining --hours 10 --elongation 0.3": (),
     "uncertainty --samples 2 --threads 1": (),
     "sensitivity --dry-run --threads 1": (),
     "optimise --evaluations 10 --threads 1": (),
@@ -49,7 +49,7 @@ NOTHING_ASKED = "optimise: this table is required"
 REASONS = {
     **{("loads", kind): NO_CHAIN for kind in ("strand", "gears", "table")},
     **{("maintain", kind): NO_CHAIN for kind in ("strand", "gears", "table")},
-    **{("remaining --hours 10 --elongation 0.01", kind): NO_CHAIN for kind in ("strand", "gears", "table")},
+    **{("remaining --hours 10 --elongation 0.3", kind): NO_CHAIN for kind in ("strand", "gears", "table")},
     **{("profile", kind): "nothing to write" for kind in ("gears", "table")},
     ("export", "table"): "must have a sprocket or gears to draw",
     **{
@@ -58,7 +58,10 @@ REASONS = {
         for kind in ("drive", "loop", "cassette")
     },
     **{
-        ("remaining --hours 10 --depth-mm 0.001", kind): "is read on the teeth of one sprocket"
+        (
+            "remaining --hours 10 --depth-mm 0.0005 --reading-error-mm 0.0001",
+            kind,
+        ): "is read on the teeth of one sprocket"
         for kind in ("drive", "loop", "cassette")
     },
     **{("optimise --evaluations 10 --threads 1", kind): NOTHING_ASKED for kind in KINDS},
