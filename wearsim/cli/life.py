@@ -11,6 +11,7 @@ from wearsim.command.complete import CasePath, complete_key
 from wearsim.command.options import (
     NOT_MET,
     SOME_FAILED,
+    answer_text,
     common_options,
     error_json,
     exit_code,
@@ -211,14 +212,14 @@ def _verified(case: "Case | DriveCase") -> "dict[str, GridStudy]":
 def _show(
     result: "WearResult | DriveLife", grids: "dict[str, GridStudy]", path: Path, as_json: bool, explain: bool
 ) -> None:
-    from wearsim.report.answer import answer, grid_json, grid_text
+    from wearsim.report.answer import grid_json, grid_text
 
     if as_json:
         studies = {name: grid_json(grid) for name, grid in grids.items()}
         grid = {"grid": studies.get(SPROCKET, studies)} if studies else {}
         print_json({**result.summary(), **grid}, path, result.warnings)
         return
-    show(answer(result, str(path), explain))
+    show(answer_text(result, str(path), explain))
     for name, grid_study in grids.items():
         show(grid_text(grid_study, "" if name == SPROCKET else name))
 

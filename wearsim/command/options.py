@@ -114,6 +114,19 @@ def worn(case: "Case | DriveCase") -> "WearResult | DriveLife":
         return simulate(case, report_progress)
 
 
+def answer_text(result: "WearResult | DriveLife", source: str, explain: bool = False) -> str:
+    """Return the answer to a case as it is printed, on request with all that it rests on."""
+    from wearsim.drive.drive_result import DriveLife
+
+    if isinstance(result, DriveLife):
+        from wearsim.report.drive.drive_text import drive_text
+
+        return drive_text(result, source, explain)
+    from wearsim.report.answer import answer
+
+    return answer(result, source, explain)
+
+
 def print_json(content: Mapping[str, Any], source: Path, warnings: Iterable[str] = ()) -> None:
     """Print an object on one line of stdout, and warnings on stderr."""
     click.echo(json.dumps(content, ensure_ascii=False, allow_nan=False))

@@ -15,7 +15,6 @@ from wearsim.errors import WearsimError
 from wearsim.notebook import html_rows, one_line
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.result.ends import PartEnd, before_wear, earliest_life, first_end, part_ends
-from wearsim.result.events import Event, drive_events
 from wearsim.result.lives import hours
 from wearsim.result.second_opinions import SecondOpinions
 from wearsim.simulation.wrap_life import part_band
@@ -297,18 +296,6 @@ class DriveLife:
     def practice(self) -> SecondOpinions | None:
         """What published rules say of the life of the chain."""
         return self.reference.practice
-
-    @property
-    def events(self) -> tuple[Event, ...]:
-        """What happens to the chain and the sprockets when, in the order of time, replaced as planned."""
-        from wearsim.drive.maintenance import drive_plan  # which is made of this
-
-        driver = self.drive.driver
-        wheels = {name: wheel.name for wheel in self.drive.wheels for name in wheel.parts}
-        ends = [replace(end, part=wheels.get(end.part, end.part)) for end in self.ends]
-        replaced = {name: stop.hours for stop in drive_plan(self).first_stops for name in stop.parts}
-        limit = 100.0 * driver.drive.joint.elongation_limit
-        return drive_events(driver.case.inputs, self.reference.history_columns, limit, ends, replaced)
 
     @property
     def overloaded(self) -> tuple[RatingFinding, ...]:

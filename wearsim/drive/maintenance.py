@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import CHAIN, DriveLife
@@ -11,6 +11,7 @@ from wearsim.drive.renewal import SAME, least_cost_rate
 from wearsim.input.schema import MaintenanceTable
 from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.result import Life, LowerBound
+from wearsim.result.events import Event, drive_events
 
 CONVENTIONS = (
     "replacement parts last as long as the originals",
@@ -116,6 +117,16 @@ def drive_plan(found: DriveLife) -> DrivePlan:
     rules = replacement_rules(chain, hours, prices, frozenset(lives.keys() - worn_out.keys()))
     no_less = least_cost_rate(worn_out, prices.parts, prices.stop) if prices and worn_out else None
     return DrivePlan(found, lives, tuple(rules), no_less)
+
+
+def planned_events(found: DriveLife) -> tuple[Event, ...]:
+    """Return what happens to chain and sprockets when, in the order of time, replaced as planned."""
+    driver = found.drive.driver
+    wheels = {name: wheel.name for wheel in found.drive.wheels for name in wheel.parts}
+    ends = [replace(end, part=wheels.get(end.part, end.part)) for end in found.ends]
+    replaced = {name: stop.hours for stop in drive_plan(found).first_stops for name in stop.parts}
+    limit = 100.0 * driver.drive.joint.elongation_limit
+    return drive_events(driver.case.inputs, found.reference.history_columns, limit, ends, replaced)
 
 
 def part_lives(found: DriveLife) -> dict[str, Life | LowerBound]:

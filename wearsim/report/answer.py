@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.power_rating import RATED_HOURS
 from wearsim.chain.selection import RATED_FOR_HOURS, RatingFinding
-from wearsim.drive.drive_result import DriveLife
 from wearsim.quantities import DAYS_OF_YEAR, grouped
 from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, LimitState, LowerBound, WearResult
@@ -125,12 +124,8 @@ def slack_needed(needed: float, limit: float) -> str:
     return grouped(needed, 3) if needed * _FAR > limit else f"below {grouped(limit / _FAR, 2)}"
 
 
-def answer(result: WearResult | DriveLife, source: str, explain: bool = False) -> str:
-    """Return the answer of a case as ``wearsim life`` prints it, on request with all that it rests on."""
-    if isinstance(result, DriveLife):
-        from wearsim.report.drive.drive_text import drive_text
-
-        return drive_text(result, source, explain)
+def answer(result: WearResult, source: str, explain: bool = False) -> str:
+    """Return the answer to one sprocket or gears in words, on request with all that it rests on."""
     found = findings(result)
     if explain:
         found += [("Band from", result.band), *_explained(result)]

@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from wearsim._version import __version__
 from wearsim.drive.drive_result import DriveLife
-from wearsim.drive.maintenance import DrivePlan, drive_plan
+from wearsim.drive.maintenance import DrivePlan, drive_plan, planned_events
 from wearsim.errors import OutputError
 from wearsim.files import check_free, new_folder, write_file
 from wearsim.geometry.scene import Circle, Scene
@@ -176,7 +176,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         lubrication=lubrication_rows(found),
         lives=life_table(found),
         bars=lives_bars(plan),
-        chain_tables=chain_tables(found.ends, found.practice, found.events),
+        chain_tables=chain_tables(found.ends, found.practice, planned_events(found)),
         against=against_hours(found),
         plan=plan_table(plan),
         plan_until=_plan_until(plan),

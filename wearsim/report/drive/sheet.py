@@ -6,7 +6,7 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.chain.selection import RATED_FOR_HOURS, deciding
 from wearsim.drive.drive_result import CHAIN, DriveLife
-from wearsim.drive.maintenance import DrivePlan, drive_plan
+from wearsim.drive.maintenance import DrivePlan, drive_plan, planned_events
 from wearsim.drive.plan import Stop
 from wearsim.drive.said_of_sprockets import said_of_sprockets
 from wearsim.quantities import grouped
@@ -77,7 +77,7 @@ def outside_practice(found: DriveLife) -> str:
 
 def explained_rows(found: DriveLife) -> list[tuple[str, str]]:
     """Return a line for everything that may end a part, for every published rule and for every event."""
-    return [] if found.practice is None else chain_rows(found.ends, found.practice, found.events)
+    return [] if found.practice is None else chain_rows(found.ends, found.practice, planned_events(found))
 
 
 def failed_rows(found: DriveLife) -> list[tuple[str, str]]:
@@ -310,7 +310,7 @@ def drive_json(found: DriveLife) -> dict[str, Any]:
         **service_keys(drive.driver.case.inputs, found.life),
         "overloaded": bool(found.overloaded),
         "ends": ends_json(found.ends),
-        "events": events_json(found.events),
+        "events": events_json(planned_events(found)),
         **({} if found.practice is None else {"practice": opinions_json(found.practice)}),
         "sprockets": [_sprocket_json(found, one.name) for one in drive.sprockets],
         "layout": layout_json(drive),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim.command.colours import show
-from wearsim.command.options import NOT_MET, error_json, load_cases, print_json, warn, working
+from wearsim.command.options import NOT_MET, answer_text, error_json, load_cases, print_json, warn, working
 from wearsim.errors import CaseError, Fault, WearsimError
 
 if TYPE_CHECKING:
@@ -72,7 +72,6 @@ def _setting(key: str, value: float, start: float) -> str:
 
 def _show(solved: "Solved", path: Path, key: str, hours: float, start: float, as_json: bool) -> None:
     from wearsim.quantities import grouped
-    from wearsim.report.answer import answer
 
     result = solved.trial.result
     if as_json:
@@ -81,7 +80,7 @@ def _show(solved: "Solved", path: Path, key: str, hours: float, start: float, as
     else:
         label = "Solved " if solved.met else "Nearest"
         click.echo(f"  {label}    {_sentence(solved, key, hours)}")
-        show(answer(result, f"{path} --set {_setting(key, solved.trial.value, start)}"))
+        show(answer_text(result, f"{path} --set {_setting(key, solved.trial.value, start)}"))
     if not solved.met:
         warn(
             f"{path}: no value of {key} was found from {solved.low:.6g} to {solved.high:.6g} that lives "
