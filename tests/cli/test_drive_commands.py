@@ -218,6 +218,7 @@ def test_check_rates_a_drive(cli, drive):
     assert any("outside a rating: plate fatigue" in text for text in found["warnings"])
 
 
+@pytest.mark.slow
 def test_what_matters_on_a_drive(cli, drive):
     """Of joints the rate alone: the index of the only key that scatters is 1, twice the life half of it."""
     pytest.importorskip("SALib", reason="SALib is not installed")
@@ -233,6 +234,7 @@ def test_what_matters_on_a_drive(cli, drive):
     assert joints["value_for_double_life"] == pytest.approx(0.5e-8, rel=0.05)
 
 
+@pytest.mark.slow
 def test_the_best_drive_is_a_drive(cli, drive, tmp_path):
     """The chain ends first: of two pulls the smaller one lives longer, by the law of its joints."""
     drive.write_text(
