@@ -17,6 +17,9 @@ REFERENCE_TEETH = 19
 RATED_HOURS = 15_000.0
 """Hours that the ratings of ANSI B29.1 and ISO 10823 are for [h]."""
 
+NO_MORE_HOURS = 1e5
+"""Hours above which a mode is not what ends a chain, and no number is told [h]."""
+
 IMPACT_BAND = 2.0
 """Factor by which the hours until rollers fail may be shorter or longer: assumed, no scatter is published."""
 

@@ -15,7 +15,13 @@ import numpy as np
 from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.chain.chain_length import belt_centre
 from wearsim.chain.joint_pressure import allowable_joint_pressure
-from wearsim.chain.power_rating import RATED_HOURS, hours_over_duty, power_rating, strand_factor
+from wearsim.chain.power_rating import (
+    NO_MORE_HOURS,
+    RATED_HOURS,
+    hours_over_duty,
+    power_rating,
+    strand_factor,
+)
 from wearsim.chain.practice_drive import RATED_ELONGATION, PracticeDrive
 from wearsim.chain.selection import LARGEST_PITCH, rating_note
 from wearsim.errors import GeometryError
@@ -25,9 +31,6 @@ GOST_HOURS = 10_000.0
 
 GREATEST_PRESSURE = 45.0
 """Joint pressure above which no rule has been in use [MPa]; neither above twice [p]."""
-
-NOT_WEAR_HOURS = 100_000.0
-"""Life above which wear is not what a chain ends by."""
 
 PRESSURE_VELOCITY = 110.0, 130.0
 """Joint pressure times chain speed at which the tables p_v of DIN 8195 end [MPa m/s]."""
@@ -257,7 +260,7 @@ def _opinion(rule: PracticeRule, duty: Sequence[PracticeDrive]) -> Opinion:
     judged = fastest(duty)
     hours = hours_over_duty(blocks) * judged.elongation / RATED_ELONGATION * judged.lubrication_factor.factor
     notes = [rating_note(judged.series)] if rule.school == "rating" else []
-    if hours > NOT_WEAR_HOURS:
+    if hours > NO_MORE_HOURS:
         notes.append("above 100 000 h it is not wear that a chain ends by")
     return Opinion(rule, hours, "; ".join(filter(None, notes)))
 

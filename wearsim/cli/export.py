@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.cases_and_runs import loaded_sources, one_sprocket, titled_cases
+from wearsim.command.cases_and_runs import loaded_sources, one_sprocket
 from wearsim.command.complete import RunPath
 from wearsim.command.options import common_options, overrides, sprocket_option, warn, working, worn
 from wearsim.command.single_file import check_place, format_of, write_content
@@ -117,7 +117,7 @@ def _export_all(drive: "DriveCase", out: Path, form: str, state: str, force: boo
     _check_step(form)
     _check_states(form, states)
     check_folder(out, force)
-    cases, results = titled_cases(drive), {}
+    cases, results = drive.titled_cases(), {}
     if "worn" in states:
         with working(f"wearing {drive.title}") as report_progress:
             results = drive_life(drive, report_progress).complete().results

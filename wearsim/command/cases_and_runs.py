@@ -1,7 +1,6 @@
 """Cases to run and folders of runs, as several commands take them side by side."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -73,14 +72,9 @@ def one_sprocket(case: "Case | DriveCase", path: Path, sprocket: str | None, or_
         if sprocket is not None:
             raise click.UsageError(f"--sprocket belongs to a whole drive, but {path} is none: leave it out")
         return case
-    cases = titled_cases(case)
+    cases = case.titled_cases()
     if sprocket not in cases:
         got = or_else if sprocket is None else f" (got {sprocket!r})"
         names = ", ".join(map(repr, cases))
         raise click.UsageError(f"{path} is a whole drive: give --sprocket, one of {names}{got}")
     return cases[sprocket]
-
-
-def titled_cases(drive: "DriveCase") -> "dict[str, Case]":
-    """Return the cases of all sprockets under titles that say which one of what drive it is."""
-    return {one.name: replace(one.case, title=f"{drive.title}: {one.name}") for one in drive.sprockets}

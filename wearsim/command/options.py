@@ -116,15 +116,15 @@ def worn(case: "Case | DriveCase") -> "WearResult | DriveLife":
 
 def answer_text(result: "WearResult | DriveLife", source: str, explain: bool = False) -> str:
     """Return the answer to a case as it is printed, on request with all that it rests on."""
-    from wearsim.drive.drive_result import DriveLife
+    from wearsim.result import WearResult
 
-    if isinstance(result, DriveLife):
-        from wearsim.report.drive.drive_text import drive_text
+    if isinstance(result, WearResult):
+        from wearsim.report.answer import answer
 
-        return drive_text(result, source, explain)
-    from wearsim.report.answer import answer
+        return answer(result, source, explain)
+    from wearsim.report.drive.drive_text import drive_text
 
-    return answer(result, source, explain)
+    return drive_text(result, source, explain)
 
 
 def print_json(content: Mapping[str, Any], source: Path, warnings: Iterable[str] = ()) -> None:

@@ -105,6 +105,10 @@ class DriveCase:
         sprockets = tuple(replace(one, case=one.case.with_horizon(hours)) for one in self.sprockets)
         return replace(self, sprockets=sprockets)
 
+    def titled_cases(self) -> dict[str, Case]:
+        """Return the cases of all sprockets by their names, under titles that say which one of what drive."""
+        return {one.name: replace(one.case, title=f"{self.title}: {one.name}") for one in self.sprockets}
+
     @property
     def driver(self) -> DriveSprocket:
         """The sprocket that drives the chain."""

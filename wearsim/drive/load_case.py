@@ -1,16 +1,18 @@
 """Reading a case: from a file or a mapping, with overrides, to a complete one."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
-from wearsim.drive.drive_case import DriveCase
 from wearsim.input.document import CaseSource, Document, is_whole_drive, read_document
 from wearsim.input.mechanism_registry import read_case
 from wearsim.input.other_files import check_command
 
+if TYPE_CHECKING:
+    from wearsim.drive.drive_case import DriveCase
 
-def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> Case | DriveCase:
+
+def load_case(source: CaseSource, overrides: Sequence[str] = ()) -> "Case | DriveCase":
     """Return the case of an input file, of its text or of a mapping with the same tables.
 
     Parameters
@@ -57,7 +59,7 @@ def load_single(source: CaseSource, overrides: Sequence[str] = ()) -> Case:
     return found
 
 
-def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> DriveCase:
+def load_drive(source: CaseSource, overrides: Sequence[str] = ()) -> "DriveCase":
     """Return a whole drive; a fault on one sprocket and on gears."""
     text = "must be [[sprocket]] for each sprocket of a drive here: this is one sprocket or a pair of gears"
     found: DriveCase = read_case(

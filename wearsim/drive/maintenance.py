@@ -119,12 +119,12 @@ def drive_plan(found: DriveLife) -> DrivePlan:
     return DrivePlan(found, lives, tuple(rules), no_less)
 
 
-def planned_events(found: DriveLife) -> tuple[Event, ...]:
+def planned_events(plan: DrivePlan) -> tuple[Event, ...]:
     """Return what happens to chain and sprockets when, in the order of time, replaced as planned."""
-    driver = found.drive.driver
+    found, driver = plan.found, plan.drive.driver
     wheels = {name: wheel.name for wheel in found.drive.wheels for name in wheel.parts}
     ends = [replace(end, part=wheels.get(end.part, end.part)) for end in found.ends]
-    replaced = {name: stop.hours for stop in drive_plan(found).first_stops for name in stop.parts}
+    replaced = {name: stop.hours for stop in plan.first_stops for name in stop.parts}
     limit = 100.0 * driver.drive.joint.elongation_limit
     return drive_events(driver.case.inputs, found.reference.history_columns, limit, ends, replaced)
 

@@ -2,29 +2,34 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from itertools import groupby
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from wearsim.case.model import Case
-from wearsim.drive.drive_case import DriveCase
-from wearsim.drive.drive_result import DriveLife
-from wearsim.drive.life import drive_life
-from wearsim.drive.maintenance import part_lives
 from wearsim.errors import WearsimError
 from wearsim.result import Life, WearResult
 from wearsim.simulation import simulate as simulate_single
-from wearsim.simulation.batch_lives import CaseLife, batched_lives
+
+if TYPE_CHECKING:
+    from wearsim.drive.drive_case import DriveCase
+    from wearsim.drive.drive_result import DriveLife
+    from wearsim.simulation.batch_lives import CaseLife
 
 
 def simulate(
-    case: Case | DriveCase, progress: Callable[[float], None] = lambda part: None
-) -> WearResult | DriveLife:
+    case: "Case | DriveCase", progress: Callable[[float], None] = lambda part: None
+) -> "WearResult | DriveLife":
     """Wear all that a case names until the first limit, as `wearsim.simulate` does."""
-    return drive_life(case, progress) if isinstance(case, DriveCase) else simulate_single(case, progress)
+    if isinstance(case, Case):
+        return simulate_single(case, progress)
+    # Not above: one sprocket starts without what only whole drives take.
+    from wearsim.drive.life import drive_life
+
+    return drive_life(case, progress)
 
 
 def simulate_many(
-    cases: Iterable[Case | DriveCase], threads: int | None = None
-) -> Iterator[CaseLife | WearsimError]:
+    cases: "Iterable[Case | DriveCase]", threads: int | None = None
+) -> "Iterator[CaseLife | WearsimError]":
     """Find the lives of many cases.
 
     Cases on a strand or under a table of loads whose only limit is the critical depth run
@@ -60,14 +65,18 @@ def simulate_many(
     >>> found.life == wearsim.simulate(case).life
     True
     """
-    for kind, group in groupby(cases, key=type):
-        lives = _drive_lives if kind is DriveCase else batched_lives
+    from wearsim.simulation.batch_lives import batched_lives
+
+    for single, group in groupby(cases, key=lambda case: isinstance(case, Case)):
+        lives = batched_lives if single else _drive_lives
         yield from lives(cast("Iterable[Any]", group), threads)
 
 
 def _drive_lives(
-    drives: Iterable[DriveCase], threads: int | None = None
-) -> Iterator[CaseLife | WearsimError]:
+    drives: "Iterable[DriveCase]", threads: int | None = None
+) -> "Iterator[CaseLife | WearsimError]":
+    from wearsim.drive.life import drive_life
+
     for drive in drives:
         try:
             yield _case_life(drive_life(drive, threads=threads).complete())
@@ -75,7 +84,10 @@ def _drive_lives(
             yield error
 
 
-def _case_life(found: DriveLife) -> CaseLife:
+def _case_life(found: "DriveLife") -> "CaseLife":
+    from wearsim.drive.maintenance import part_lives
+    from wearsim.simulation.batch_lives import CaseLife
+
     lives = part_lives(found)
     ended = {name: life.hours for name, life in lives.items() if isinstance(life, Life)}
     return CaseLife(

@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import Any
 
 from wearsim.input.case_record import ChainRecord
-from wearsim.input.document import Document
+from wearsim.input.document import Document, is_whole_drive
 from wearsim.input.schema import CaseTables
 from wearsim.kernels.compiled import expect
 
@@ -119,7 +119,7 @@ def mechanism_of(data: Mapping[str, Any]) -> MechanismEntry:
     >>> mechanism_of({"sprocket": [{"teeth": 21}, {"teeth": 57}]}) is WHOLE_DRIVE
     True
     """
-    if isinstance(data.get("sprocket"), list):
+    if is_whole_drive(data):
         return WHOLE_DRIVE
     if "gear" in data:
         return MECHANISMS["gear_pair"]

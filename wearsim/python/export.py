@@ -199,7 +199,7 @@ def _case(source: CaseInput | WearResult | DriveLife, sprocket: str | None) -> t
     found = loaded(source.drive if isinstance(source, DriveLife) else source)
     if not isinstance(found, DriveCase):
         return found, None
-    cases = {one.name: replace(one.case, title=f"{found.title}: {one.name}") for one in found.sprockets}
+    cases = found.titled_cases()
     if sprocket not in cases:
         names = " or ".join(f"sprocket={name!r}" for name in cases)
         text = "must name one wheel of the drive" + (f" (got {sprocket!r})" if sprocket else "")

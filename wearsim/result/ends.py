@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wearsim.chain.power_rating import IMPACT_BAND, RATED_HOURS
+from wearsim.chain.power_rating import IMPACT_BAND, NO_MORE_HOURS, RATED_HOURS
 from wearsim.chain.selection import GALLING, IMPACT, PLATES, RatingFinding
 from wearsim.quantities import grouped
 from wearsim.result.lives import Life, LowerBound, hours
@@ -14,9 +14,6 @@ CHAIN, SPROCKET = "chain", "sprocket"
 
 JOINT_WEAR, TOOTH_WEAR, PITTING = "joint wear", "tooth wear", "contact fatigue"
 WEAR = JOINT_WEAR, TOOTH_WEAR
-
-NO_MORE_HOURS = 1e5
-"""Hours above which a mode is not what ends a chain, and no number is told."""
 
 Lives = tuple[Life | LowerBound, Life | LowerBound]
 """A life at the high and at the low end of its coefficient."""

@@ -5,8 +5,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
+from wearsim.chain.power_rating import NO_MORE_HOURS
 from wearsim.quantities import grouped
-from wearsim.result.ends import NO_MORE_HOURS, Lives
+from wearsim.result.ends import Lives
 from wearsim.result.lives import Life
 
 if TYPE_CHECKING:

@@ -176,7 +176,7 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         lubrication=lubrication_rows(found),
         lives=life_table(found),
         bars=lives_bars(plan),
-        chain_tables=chain_tables(found.ends, found.practice, planned_events(found)),
+        chain_tables=chain_tables(found.ends, found.practice, planned_events(plan)),
         against=against_hours(found),
         plan=plan_table(plan),
         plan_until=_plan_until(plan),

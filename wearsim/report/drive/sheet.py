@@ -77,7 +77,9 @@ def outside_practice(found: DriveLife) -> str:
 
 def explained_rows(found: DriveLife) -> list[tuple[str, str]]:
     """Return a line for everything that may end a part, for every published rule and for every event."""
-    return [] if found.practice is None else chain_rows(found.ends, found.practice, planned_events(found))
+    if found.practice is None:
+        return []
+    return chain_rows(found.ends, found.practice, planned_events(drive_plan(found)))
 
 
 def failed_rows(found: DriveLife) -> list[tuple[str, str]]:
@@ -310,7 +312,7 @@ def drive_json(found: DriveLife) -> dict[str, Any]:
         **service_keys(drive.driver.case.inputs, found.life),
         "overloaded": bool(found.overloaded),
         "ends": ends_json(found.ends),
-        "events": events_json(planned_events(found)),
+        "events": events_json(planned_events(drive_plan(found))),
         **({} if found.practice is None else {"practice": opinions_json(found.practice)}),
         "sprockets": [_sprocket_json(found, one.name) for one in drive.sprockets],
         "layout": layout_json(drive),
