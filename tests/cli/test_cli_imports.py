@@ -20,12 +20,16 @@ finally:
 """
 
 
-def loaded(*arguments):
+def modules(*arguments):
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM, *map(str, arguments)], capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
-    return {name.partition(".")[0] for name in done.stderr.split()} & HEAVY
+    return set(done.stderr.split())
+
+
+def loaded(*arguments):
+    return {name.partition(".")[0] for name in modules(*arguments)} & HEAVY
 
 
 @pytest.mark.parametrize("arguments", [("--help",), ("life", "--help"), ("--version",)])
@@ -44,6 +48,16 @@ def test_check_of_a_strand_compiles_nothing(drive):
 def test_life_of_a_strand_runs_its_machine_code_without_numba(drive):
     loaded("life", drive())  # compiles
     assert loaded("life", drive()) == loaded("life", "--json", drive()) == {"numpy", "shapely", "llvmlite"}
+
+
+def test_life_of_a_strand_loads_nothing_of_whole_drives(drive):
+    of_drives = (
+        "wearsim.mechanisms.wrap",
+        "wearsim.drive.drive_case",
+        "wearsim.drive.life",
+        "wearsim.report.drive",
+    )
+    assert not {name for name in modules("life", drive()) if name.startswith(of_drives)}
 
 
 @pytest.mark.slow
