@@ -8,8 +8,8 @@ from typing import Any
 from wearsim.errors import OutputError
 from wearsim.files import write_file
 from wearsim.input.document import retitled
-from wearsim.result.folder import FILE_KEYS
-from wearsim.runner.design import Design, replaced
+from wearsim.result.folder import file_paths
+from wearsim.runner.design import Design, replaced, value_at
 from wearsim.runner.store import own_designs
 
 
@@ -44,11 +44,8 @@ def _check_free(folder: Path, names: set[str]) -> None:
 
 def _named(cases: Design) -> list[str]:
     """Names of the files that at least one case names."""
-    found = {
-        cases.tables_of(at).get(table, {}).get(key)
-        for at in range(len(cases.rows))
-        for table, key in FILE_KEYS
-    }
+    drives = [cases.tables_of(at) for at in range(len(cases.rows))]
+    found = {value_at(tables, ".".join(path)) for tables in drives for path in file_paths(tables)}
     return sorted(found & cases.files.keys())
 
 
@@ -69,10 +66,10 @@ def _write_apart(folder: Path, name: str, text: str) -> str:
 def _case_text(head: str, tables: Mapping[str, Any], placed: Mapping[str, str]) -> str:
     import tomlkit
 
-    for table, key in FILE_KEYS:
-        name = tables.get(table, {}).get(key)
+    for path in file_paths(tables):
+        name = value_at(tables, ".".join(path))
         if name in placed:
-            tables = replaced(tables, (table, key), placed[name])
+            tables = replaced(tables, path, placed[name])
     document = tomlkit.document()
     document.add(tomlkit.comment(head))
     for key, value in tables.items():

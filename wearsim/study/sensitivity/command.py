@@ -69,7 +69,7 @@ def sensitivity(
         return 0
     found = effects(study, table)
     with working(f"doubling the life of {scattered.case.title}"):
-        doubled = doubling(scattered)
+        doubled = doubling(scattered, found)
     from wearsim.study.sensitivity.sheet import (
         SensitivityAnswer,
         save_sensitivity,

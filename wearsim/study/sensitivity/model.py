@@ -32,6 +32,9 @@ _LEVELS = 4
 _SAME = 1e-9
 """Difference of ln L below which lives are the same."""
 
+_FELT = 0.01
+"""Difference of ln L from the 10 % to the 90 % point of a key below which no value of it is looked for."""
+
 
 @dataclass(frozen=True)
 class SensitivityStudy:
@@ -66,6 +69,11 @@ class KeyEffect:
     morris: float
     morris_error: float
     interaction: float
+
+    @property
+    def is_felt(self) -> bool:
+        """Whether the key changes the life enough to look for the value that doubles it."""
+        return max(self.morris, abs(math.log(self.high_hours / self.low_hours))) > _FELT
 
 
 def load_sensitivity(
@@ -116,19 +124,21 @@ def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[KeyEffect]:
     return sorted(found, key=lambda effect: -effect.total)
 
 
-def doubling(scattered: ScatteredCase) -> dict[str, float]:
-    """Return the value of every key at which the case lives twice as long, the others as they are."""
+def doubling(scattered: ScatteredCase, found: Sequence[KeyEffect]) -> dict[str, float]:
+    """Return the value of every key at which the case lives twice as long, the others as they are.
+
+    It is nan of a key that is not felt, and of one for which no value that can run doubles the life.
+    """
     if scattered.case.fatigue is not None:
         return dict.fromkeys(scattered.keys, math.nan)
     hours = simulate(_case_with(scattered, "", math.nan)).life.hours
-    found = {}
-    for scatter in scattered.scatters:
-        if scatter.value <= 0.0:
-            found[scatter.key] = math.nan
-            continue
-        solved = solve_for(partial(_case_with, scattered, scatter.key), scatter.value, 2.0 * hours)
-        found[scatter.key] = solved.trial.value if solved.met else math.nan
-    return found
+    doubled = dict.fromkeys(scattered.keys, math.nan)
+    for effect in found:
+        key, value = effect.scatter.key, effect.scatter.value
+        if value > 0.0 and effect.is_felt:
+            solved = solve_for(partial(_case_with, scattered, key), value, 2.0 * hours)
+            doubled[key] = solved.trial.value if solved.met else math.nan
+    return doubled
 
 
 def _case_with(scattered: ScatteredCase, key: str, value: float) -> Case | DriveCase:

@@ -25,6 +25,8 @@ _ALONE = (
 
 _OFFER = "usual scatters to put into the case as a start (10 % of load, 3 % of speed, 2 % of sizes):"
 
+_NO_VALUE = "no value that can run"
+_NOT_FELT = "changes the life by less than 1 %"
 _NOT_DOUBLED = "what doubles the life is not looked for: contact fatigue may change it by leaps"
 
 
@@ -91,10 +93,12 @@ def sensitivity_text(answer: SensitivityAnswer) -> str:
             f"{effect.interaction:.3f}"
         )
     lines += ["", "what would double the life, the others as they are:"]
-    none = "not looked for" if scattered.case.fatigue is not None else "no value that can run"
     for effect in answer.effects:
         value = answer.doubled[effect.scatter.key]
-        shown = none if math.isnan(value) else f"{value:.4g}"
+        shown = f"{value:.4g}"
+        if math.isnan(value):
+            sought = scattered.case.fatigue is None
+            shown = "not looked for" if not sought else _NO_VALUE if effect.is_felt else _NOT_FELT
         lines.append(f"  {effect.scatter.key:<{width}}  {effect.scatter.value:.4g} -> {shown}")
     lines += ["", "what scatters:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in scattered.scatters]

@@ -17,6 +17,9 @@ _FACTOR = 2.0
 """Between values tried on the way to a bracket."""
 
 _MAX_FACTORS = 24
+_IN_VAIN = 4
+"""Factors on end that bring the life no nearer to what is required, after which that side is left."""
+
 _EDGE_STEPS = 12
 """Halvings of the logarithm on the way to the last value that is allowed."""
 
@@ -84,8 +87,9 @@ def solve_for(
     """Find the value of a key at which a case lives as long as required.
 
     From the start the value is doubled or halved, to the side on which the life comes
-    nearer first, until the life is met or the case refuses; Brent's method on the
-    logarithms follows, for whole numbers bisection to the value that still lives as long.
+    nearer first, until the life is met, the case refuses or the life comes no nearer by a
+    factor of 16; Brent's method on the logarithms follows, for whole numbers bisection to
+    the value that still lives as long.
     """
     lives = _Lives(case_at, hours, whole)
     first = lives.at(start)
@@ -117,6 +121,7 @@ def _directions(lives: _Lives, start: float) -> tuple[float, float]:
 def _bracket(lives: _Lives, start: float, factor: float) -> tuple[float, float] | None:
     """Return two values between which the life is met, None where there are none on this side."""
     inside, sign = start, lives.excess(start) > 0.0
+    nearest, in_vain = abs(lives.excess(start)), 0
     for _ in range(_MAX_FACTORS):
         outside = inside * factor
         trial = lives.at(outside)
@@ -124,9 +129,11 @@ def _bracket(lives: _Lives, start: float, factor: float) -> tuple[float, float] 
             return _at_edge(lives, inside, outside, sign)
         if (lives.excess(trial.value) > 0.0) != sign:
             return inside, trial.value
-        if trial.value == inside:
+        distance = abs(lives.excess(trial.value))
+        in_vain = 0 if distance < nearest else in_vain + 1
+        if trial.value == inside or in_vain == _IN_VAIN:
             return None
-        inside = trial.value
+        inside, nearest = trial.value, min(nearest, distance)
     return None
 
 
