@@ -20,6 +20,7 @@ from wearsim.case.table_inputs import (
     wear_input,
 )
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
+from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
 from wearsim.input.faults import Faults
@@ -116,8 +117,7 @@ def _title(case: ChainRecord, kind: str) -> str:
         return f"Flank under the loads of {case.inputs['mechanism']['table_file']}"
     if kind == "wrap":
         return f"{chain[0].upper()}{chain[1:]} around a sprocket of {sprocket['teeth']} teeth"
-    form = "Evolute sprocket" if sprocket["profile"] == "evolute" else "Sprocket from points"
-    return f"{form}, {chain}, {sprocket['teeth']} teeth"
+    return f"{TOOTH_FORMS[sprocket['profile']].on_strand}, {chain}, {sprocket['teeth']} teeth"
 
 
 def _turns_per_cycle(case: ChainRecord) -> int:

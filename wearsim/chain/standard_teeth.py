@@ -3,12 +3,7 @@
 from functools import cache
 
 from wearsim.catalogue.catalogues import Chain
-from wearsim.geometry.forms.ansi_b29 import TypeIITooth
-from wearsim.geometry.forms.gost591 import GostTooth
-from wearsim.geometry.forms.iso606 import iso606_gap
-
-_FORMS = {"ISO606-A/ANSI B29.1": "ansi_b29", "ISO606-H": "ansi_b29", "GOST13568": "gost591"}
-"""Profile of a case by the series of its chain, where it is not that of ISO 606."""
+from wearsim.geometry.forms import TOOTH_FORMS
 
 
 def standard_form(chain: Chain) -> str:
@@ -20,7 +15,7 @@ def standard_form(chain: Chain) -> str:
     >>> standard_form(chains()["08A-1"]), standard_form(chains()["08B-1"])
     ('ansi_b29', 'iso606')
     """
-    return _FORMS.get(chain.series, "iso606")
+    return next(name for name, form in TOOTH_FORMS.items() if chain.series in form.usual_for)
 
 
 def standard_tip_diameter(chain: Chain, teeth: int) -> float:
@@ -37,8 +32,4 @@ def standard_tip_diameter(chain: Chain, teeth: int) -> float:
 
 @cache
 def _tip_diameter(form: str, pitch: float, roller_diameter: float, teeth: int) -> float:
-    if form == "ansi_b29":
-        return TypeIITooth(pitch, roller_diameter, teeth).outside_diameter
-    if form == "gost591":
-        return GostTooth(pitch, roller_diameter, teeth).outside_diameter
-    return 2.0 * iso606_gap(pitch, roller_diameter, teeth).tip_radius
+    return 2.0 * TOOTH_FORMS[form].gap(pitch, roller_diameter, teeth).tip_radius

@@ -12,6 +12,7 @@ from wearsim.command.options import common_options
 from wearsim.drive.drive_start import start_text
 from wearsim.drive.known_drive import KNOWN
 from wearsim.errors import CaseError, Fault
+from wearsim.geometry.forms import TOOTH_FORMS
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -147,8 +148,11 @@ def _values(case: "Case") -> dict[str, Any]:
             "offset": sprocket["evolute_offset_mm"],
         }
     drive = case.inputs["drive"]
+    # Standard forms first: they are what most sprockets have.
+    forms = sorted(TOOTH_FORMS, key=lambda name: not TOOTH_FORMS[name].standard_gap)
     return shown | {
         "profile": sprocket["profile"],
+        "forms": f"{', '.join(forms[:-1])} or {forms[-1]}",
         "mate": drive["mate_teeth"],
         "links": drive["links"],
         "stiffness": drive["link_stiffness_N_per_mm"],

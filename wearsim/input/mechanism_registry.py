@@ -5,14 +5,15 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import Any
 
+from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document, is_whole_drive
 from wearsim.input.schema import CaseTables
 from wearsim.kernels.compiled import expect
 
-WRAP_PROFILES = ("iso606", "ansi_b29", "gost591", "dxf")
-"""Tooth forms for a chain that wraps the sprocket."""
-
+_STRAND_FORMS = tuple(name for name, form in TOOTH_FORMS.items() if form.on_strand)
+_WRAP_FORMS = tuple(name for name in TOOTH_FORMS if name not in _STRAND_FORMS)
+"""Tooth forms for a chain that wraps the sprocket, and no other."""
 
 HISTORY = (
     "cycles",
@@ -126,7 +127,7 @@ def mechanism_of(data: Mapping[str, Any]) -> MechanismEntry:
     mechanism, sprocket = data.get("mechanism"), data.get("sprocket")
     kind = mechanism.get("kind") if isinstance(mechanism, dict) else None
     profile = sprocket.get("profile") if isinstance(sprocket, dict) else None
-    default = "wrap" if profile in WRAP_PROFILES else "strand"
+    default = "wrap" if profile in _WRAP_FORMS else "strand"
     return MECHANISMS[kind if isinstance(kind, str) and kind in MECHANISMS else default]
 
 
@@ -163,13 +164,13 @@ def mechanism_kind(case: ChainRecord) -> str:
     profile = tables.sprocket.profile if tables.sprocket else ""
     kind = tables.mechanism.kind
     if kind is None:
-        kind = "wrap" if profile in WRAP_PROFILES else "strand"
+        kind = "wrap" if profile in _WRAP_FORMS else "strand"
         case.take("mechanism.kind", kind, "default for this profile")
-    if kind == "strand" and profile in WRAP_PROFILES:
+    if kind == "strand" and profile in _WRAP_FORMS:
         case.faults.add(
             "sprocket.profile",
             f"{profile!r} is made for a chain that wraps the sprocket: set mechanism.kind = 'wrap', or "
-            "use profile = 'evolute' or 'points' on a strand",
+            f"use profile = {' or '.join(map(repr, _STRAND_FORMS))} on a strand",
         )
     for place, owner in _BELONGS_TO.items():
         for key in _given(tables, place) if owner != kind else ():

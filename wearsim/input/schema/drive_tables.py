@@ -1,10 +1,11 @@
 """What runs on a sprocket, and how: [chain], [sprocket], [drive], [mechanism], [joint], [load], [[duty]]."""
 
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator
 
 from wearsim.catalogue.catalogues import chain_name, chains, known_chain_name, wear_conditions
+from wearsim.geometry.forms import BETWEEN_FORMS, TOOTH_FORMS
 from wearsim.input.schema.table import Table, all_differ, known, others_of
 from wearsim.input.schema.wear_tables import MaterialTable, WearTable
 from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
@@ -209,34 +210,24 @@ class ChainTable(Table):
         return [key for key, value in values.items() if value]
 
 
-STANDARD_FORMS = ("iso606", "ansi_b29", "gost591")
-
-BETWEEN_FORMS = ("seat_radius_mm", "flank_radius_mm", "seating_angle_deg")
-"""What ISO 606 leaves free between its minimum and its maximum form."""
-
-_BELONGS_TO = {
-    "form": ("iso606",),
-    **dict.fromkeys(BETWEEN_FORMS, ("iso606",)),
-    "displaced": ("gost591",),
-    "seat_centre": STANDARD_FORMS,
-    "tip_diameter_mm": STANDARD_FORMS,
-    "points_file": ("points",),
-    "points_noise_mm": ("points", "dxf"),
-    "dxf_file": ("dxf",),
-    "dxf_layer": ("dxf",),
-    "dxf_join_tolerance_mm": ("dxf",),
-    "back_flank": ("evolute", "points"),
-    "evolute_offset_mm": ("evolute", "points"),
-    "contact_start_mm": ("evolute", "points"),
-    "contact_end_mm": ("evolute", "points"),
+_FORMS_BY_KEY = {
+    key: tuple(name for name, form in TOOTH_FORMS.items() if key in form.keys)
+    for every in TOOTH_FORMS.values()
+    for key in every.keys
 }
+"""What a key belongs to that is not of every tooth form."""
+
+if TYPE_CHECKING:
+    _Profile = str
+else:
+    _Profile = Literal[tuple(TOOTH_FORMS)]
 
 
 class SprocketTable(Table):
     """Teeth, tooth form and, on a strand, the range of contact."""
 
     teeth: Annotated[int, Field(ge=5, le=1000)]
-    profile: Literal["evolute", "points", "iso606", "ansi_b29", "gost591", "dxf"]
+    profile: _Profile
     role: Literal["driver", "driven"] | None = None
     engaged_every: Annotated[int, Field(ge=1, le=4)] = 1
     form: Literal["min", "max"] | None = None
@@ -267,21 +258,19 @@ class SprocketTable(Table):
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
         """Return the keys whose place a new value of a key takes."""
         if key == "profile":
-            return tuple(name for name, profiles in _BELONGS_TO.items() if value not in profiles)
+            return tuple(name for name, forms in _FORMS_BY_KEY.items() if value not in forms)
         return BETWEEN_FORMS if key == "form" else ("form",) if key in BETWEEN_FORMS else ()
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         found = [
-            (key, f"belongs to profile = {' or '.join(map(repr, profiles))}: remove it")
-            for key, profiles in _BELONGS_TO.items()
-            if key in self.model_fields_set and self.profile not in profiles
+            (key, f"belongs to profile = {' or '.join(map(repr, _FORMS_BY_KEY[key]))}: remove it")
+            for key in type(self).model_fields
+            if key in self.model_fields_set and self.profile not in _FORMS_BY_KEY.get(key, TOOTH_FORMS)
         ]
-        found += [
-            (key, f"profile = {self.profile!r} needs this key")
-            for key in ("points_file", "dxf_file")
-            if self.profile in _BELONGS_TO[key] and getattr(self, key) is None
-        ]
+        file = TOOTH_FORMS[self.profile].file
+        if file and getattr(self, file) is None:
+            found.append((file, f"profile = {self.profile!r} needs this key"))
         found += [
             (key, f"form = {self.form!r} gives this already: remove one of both")
             for key in BETWEEN_FORMS

@@ -2,16 +2,15 @@
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from wearsim.case.working_flank import POINTS_NOISE, evolute_tooth
 from wearsim.catalogue.catalogues import Chain, chains
 from wearsim.errors import GeometryError
-from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
-from wearsim.geometry.forms.gost591 import gost591_gap
-from wearsim.geometry.forms.iso606 import GapForm, gap_form, iso606_gap
+from wearsim.geometry.forms import BETWEEN_FORMS, TOOTH_FORMS
+from wearsim.geometry.forms.iso606 import GapForm, gap_form
 from wearsim.geometry.gap import Gap
 from wearsim.geometry.gap_points import ON_CENTRE_LINE, evolute_gap, gap_from_points, lowest_centre
 from wearsim.geometry.measured.drawing_doubts import EFFECT, rounding_step, rounding_text
@@ -21,7 +20,6 @@ from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.csv_tables import read_points
 from wearsim.input.schema import SprocketTable
-from wearsim.input.schema.drive_tables import BETWEEN_FORMS
 
 OUTLINE_NODES = 601
 
@@ -40,13 +38,6 @@ _FORMS: tuple[Literal["min", "max"], ...] = ("min", "max")
 _ROUNDED = 1e-6
 """Part by which a given number may be beyond a limit, as both are printed with seven digits."""
 
-_SERIES = {
-    "iso606": ("ISO606-A/ANSI B29.1", "ISO606-B", "ISO606-H"),
-    "ansi_b29": ("ISO606-A/ANSI B29.1", "ISO606-H"),
-    "gost591": ("GOST13568",),
-}
-"""Series of the catalogue that a standard form is made for."""
-
 
 @dataclass(frozen=True, eq=False)
 class GapShape:
@@ -63,7 +54,7 @@ def gap_shape(case: ChainRecord, table: SprocketTable, chain: Chain) -> GapShape
         case.take("sprocket.nodes", nodes, "default")
     if table.profile == "evolute":
         return _evolute(case, table, chain, nodes)
-    if table.profile in ("points", "dxf"):
+    if TOOTH_FORMS[table.profile].file:
         return _drawn(case, table, chain, nodes)
     _check_series(case, table, chain)
     try:
@@ -84,15 +75,14 @@ def _standard_gap(case: ChainRecord, table: SprocketTable, chain: Chain) -> Gap:
     pitch = chain.pitch
     if table.engaged_every > 1:
         pitch = 2.0 * radius * math.sin(math.pi / table.teeth)
-    common = (pitch, chain.roller_diameter, table.teeth)
-    if table.profile == "ansi_b29":
-        gap = ansi_b29_gap(*common, seat, table.tip_diameter_mm)
-    elif table.profile == "gost591":
-        if table.displaced is None:
-            case.take("sprocket.displaced", False, "default")
-        gap = gost591_gap(*common, table.displaced or False, seat, table.tip_diameter_mm)
-    else:
-        gap = iso606_gap(*common, _iso606_form(case, table, chain), seat, table.tip_diameter_mm)
+    gap = TOOTH_FORMS[table.profile].gap(
+        pitch,
+        chain.roller_diameter,
+        table.teeth,
+        seat_centre=seat,
+        tip_diameter=table.tip_diameter_mm,
+        **_options(case, table, chain),
+    )
     if table.tip_diameter_mm is None:
         case.take("sprocket.tip_diameter_mm", 2.0 * gap.tip_radius, "the standard's")
     elif gap.truncated:
@@ -103,13 +93,22 @@ def _standard_gap(case: ChainRecord, table: SprocketTable, chain: Chain) -> Gap:
     return gap
 
 
-def _iso606_form(case: ChainRecord, table: SprocketTable, chain: Chain) -> Literal["min", "max"] | GapForm:
-    """Form of the gap: one of the two of ISO 606, or by what is given between them."""
+def _options(case: ChainRecord, table: SprocketTable, chain: Chain) -> dict[str, Any]:
+    """What the standard of a form leaves free beside seat and tip."""
+    if any(getattr(table, key) is not None for key in BETWEEN_FORMS):
+        return {"form": _between_forms(case, table, chain)}
+    options = {}
+    for key, default in TOOTH_FORMS[table.profile].options.items():
+        options[key] = getattr(table, key)
+        if options[key] is None:
+            options[key] = default
+            case.take(f"sprocket.{key}", default, "default")
+    return options
+
+
+def _between_forms(case: ChainRecord, table: SprocketTable, chain: Chain) -> GapForm:
+    """Form of a gap between the two of ISO 606, by the keys that are given."""
     given = {key: getattr(table, key) for key in BETWEEN_FORMS}
-    if all(value is None for value in given.values()):
-        if table.form is None:
-            case.take("sprocket.form", "min", "default")
-        return table.form or "min"
     smallest, largest = (_lengths(gap_form(name, chain.roller_diameter, table.teeth)) for name in _FORMS)
     for key, value in given.items():
         low, high = sorted((smallest[key], largest[key]))
@@ -140,7 +139,7 @@ def _check_series(case: ChainRecord, table: SprocketTable, chain: Chain) -> None
     """Add a fault where the standard's sprockets of this pitch take other rollers."""
     if not chain.designation:
         return
-    series = _SERIES[table.profile]
+    series = TOOTH_FORMS[table.profile].series
     made_for = {
         known.designation: known.roller_diameter
         for known in chains().values()

@@ -10,7 +10,7 @@ from typing import Any
 from wearsim.case.model import Case
 from wearsim.chain.drive_layout import ToothMeetings
 from wearsim.drive.load_case import load_single
-from wearsim.input.schema.drive_tables import STANDARD_FORMS
+from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.result import Life, LowerBound
 from wearsim.result.folder import FILE_KEYS
@@ -30,7 +30,7 @@ def meetings_around(case: Case, drive: WrapDrive) -> tuple[ToothCount, ...]:
     """Return the counts next to those of a drive: one tooth, two links more and less."""
     if case.engaged_every > 1:
         return ()
-    drawn = case.inputs["sprocket"]["profile"] not in STANDARD_FORMS
+    drawn = not TOOTH_FORMS[case.inputs["sprocket"]["profile"]].standard_gap
     teeth, links = drive.gaps, drive.layout.links
     return tuple(
         ToothCount(ToothMeetings(teeth + more, links + longer), run=more >= 0 and longer >= 0)

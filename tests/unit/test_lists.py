@@ -1,0 +1,51 @@
+"""A member of a list is known wherever the list is used."""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from wearsim.catalogue.catalogues import chains
+from wearsim.chain.standard_teeth import standard_form, standard_tip_diameter
+from wearsim.cli.init import new_case
+from wearsim.drive.load_case import load_case
+from wearsim.geometry.forms import TOOTH_FORMS
+from wearsim.input.mechanism_registry import mechanism_of
+from wearsim.input.schema import SprocketTable
+
+DOCS = Path(__file__).parents[2] / "docs"
+STANDARDS = [name for name, form in TOOTH_FORMS.items() if form.standard_gap]
+
+
+def first_chain(series):
+    return next(chain for chain in chains().values() if chain.series in series and chain.strands == 1)
+
+
+@pytest.mark.parametrize("form", TOOTH_FORMS)
+def test_a_tooth_form_is_in_the_schema_and_in_the_docs(form):
+    row = TOOTH_FORMS[form]
+    assert set(row.keys) <= set(SprocketTable.model_fields)
+    keys = {row.file: "any.csv"} if row.file else {}
+    assert SprocketTable.model_validate({"teeth": 20, "profile": form, **keys}).profile == form
+    assert form in new_case("16B-1", 20, "wrap")
+    assert f'"{form}"' in (DOCS / "input.md").read_text(encoding="utf-8")
+    kind = "strand" if row.on_strand else "wrap"
+    assert f".{kind}." in mechanism_of({"sprocket": {"profile": form}}).read
+
+
+@pytest.mark.parametrize("form", STANDARDS)
+def test_a_standard_form_makes_the_sprocket_of_its_chains(form):
+    chain = first_chain(TOOTH_FORMS[form].series)
+    text = new_case(chain.designation, 20, "wrap").replace(f'"{standard_form(chain)}"', f'"{form}"')
+    case = load_case(tomllib.loads(text))
+    assert case.inputs["sprocket"].keys() >= {"seat_centre", *TOOTH_FORMS[form].options}
+    if chain.series in TOOTH_FORMS[form].usual_for:
+        assert case.inputs["sprocket"]["tip_diameter_mm"] == standard_tip_diameter(chain, 20)
+
+
+@pytest.mark.parametrize("series", sorted({chain.series for chain in chains().values()}))
+def test_chains_of_a_series_have_one_usual_tooth_form(series):
+    (usual,) = (name for name, form in TOOTH_FORMS.items() if series in form.usual_for)
+    assert series in TOOTH_FORMS[usual].series
+    written = tomllib.loads(new_case(first_chain((series,)).designation, 20, "wrap"))
+    assert written["sprocket"]["profile"] == usual
