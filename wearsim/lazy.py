@@ -1,9 +1,21 @@
-"""Names of a package that are imported when they are first used."""
+"""What is imported when it is first used: names of a package, and what a row of a list names."""
 
 import warnings
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
+
+
+def named(place: str) -> Any:
+    """Return the object of a place `module:name`.
+
+    Examples
+    --------
+    >>> named("math:sqrt")(9.0)
+    3.0
+    """
+    module, _, name = place.partition(":")
+    return getattr(import_module(module), name)
 
 
 def lazy_names(

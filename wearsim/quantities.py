@@ -2,7 +2,7 @@
 
 import csv
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -42,6 +42,18 @@ def grouped(value: float, digits: int = 4) -> str:
     if abs(rounded) >= 10 ** (digits - 1):
         return f"{rounded:,.0f}".replace(",", " ")
     return f"{rounded:.{digits}g}"
+
+
+def either(words: Iterable[str]) -> str:
+    """Return words of which one is meant as one reads them aloud.
+
+    Examples
+    --------
+    >>> either(["dxf", "svg", "csv"])
+    'dxf, svg or csv'
+    """
+    *most, last = words
+    return f"{', '.join(most)} or {last}" if most else last
 
 
 _NUMBER = re.compile(r"(?<![\w.])(?<!\w-)-?\d+(?: \d{3})*(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")

@@ -5,16 +5,31 @@ from pathlib import Path
 
 import pytest
 
+import wearsim
+from wearsim.cad import DRAWINGS, STATES, WHEELS
+from wearsim.cad.printed_page import drawing_bytes
 from wearsim.catalogue.catalogues import chains
 from wearsim.chain.standard_teeth import standard_form, standard_tip_diameter
+from wearsim.cli.export import export
 from wearsim.cli.init import new_case
 from wearsim.drive.load_case import load_case
 from wearsim.geometry.forms import TOOTH_FORMS
+from wearsim.geometry.scene import Scene, line
 from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.input.schema import SprocketTable
+from wearsim.quantities import either
 
 DOCS = Path(__file__).parents[2] / "docs"
 STANDARDS = [name for name, form in TOOTH_FORMS.items() if form.standard_gap]
+
+
+SPROCKET = {
+    "format_version": 1,
+    "chain": {"designation": "08B-1"},
+    "sprocket": {"teeth": 19, "profile": "iso606", "nodes": 101},
+    "load": {"tension_N": 500, "speed_rpm": 60},
+    "wear": {"condition": "hardened, oiled"},
+}
 
 
 def first_chain(series):
@@ -49,3 +64,32 @@ def test_chains_of_a_series_have_one_usual_tooth_form(series):
     assert series in TOOTH_FORMS[usual].series
     written = tomllib.loads(new_case(first_chain((series,)).designation, 20, "wrap"))
     assert written["sprocket"]["profile"] == usual
+
+
+@pytest.mark.parametrize(
+    "form", [pytest.param(name, marks=[pytest.mark.slow] * bool(row.library)) for name, row in WHEELS.items()]
+)
+def test_a_wheel_is_written_in_every_format(form, tmp_path):
+    choices = {option.name: option.type for option in export.params}
+    assert form in choices["form"].choices and tuple(STATES) == tuple(choices["state"].choices)
+    assert f"\n| `{form}` |" in (DOCS / "export.md").read_text(encoding="utf-8")
+    if WHEELS[form].library:
+        pytest.importorskip(WHEELS[form].library)
+    for ending in (form, *WHEELS[form].endings):
+        wearsim.export(SPROCKET, tmp_path / f"wheel.{ending}")
+        assert (tmp_path / f"wheel.{ending}").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("form", DRAWINGS)
+def test_a_drawing_is_written_in_every_format_of_a_gauge(form):
+    endings = either(f".{name}" for name in DRAWINGS)
+    (template,) = (option for option in export.params if option.name == "template")
+    assert endings in template.help
+    assert endings in (DOCS / "export.md").read_text(encoding="utf-8")
+    scene = Scene((0.0, 0.0, 10.0, 10.0), (line("check", [(0.0, 5.0), (10.0, 5.0)]),))
+    assert drawing_bytes(scene, {"check": (7, 25, "Continuous")}, form)
+
+
+def test_no_other_format_is_written(tmp_path):
+    with pytest.raises(wearsim.WearsimError, match="must be one of dxf, svg, csv, step, stl, is 'pdf'"):
+        wearsim.export(SPROCKET).content("pdf")

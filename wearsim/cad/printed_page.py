@@ -3,8 +3,10 @@
 import io
 from typing import TYPE_CHECKING
 
+from wearsim.cad import DRAWINGS
 from wearsim.cad.dxf_writer import Layers, dxf_drawing
 from wearsim.geometry.scene import Box, Scene
+from wearsim.lazy import named
 
 if TYPE_CHECKING:
     from ezdxf.addons.drawing.config import Configuration
@@ -19,18 +21,19 @@ _THINNEST = 0.1
 
 
 def drawing_bytes(scene: Scene, layers: Layers, form: str, title: str = "") -> bytes:
-    """Return a drawing as the content of a file: ``dxf``, ``svg`` or ``pdf``."""
-    drawing = dxf_drawing(scene.shapes, layers)
-    if form == "dxf":
-        stream = io.StringIO()
-        drawing.write(stream)
-        return stream.getvalue().encode()
-    if form == "svg":
-        return _svg_text(drawing, scene.box).encode()
-    return _pdf_bytes(drawing, scene.box, title)
+    """Return a drawing as the content of a file, in a format of `DRAWINGS`."""
+    content: bytes = named(DRAWINGS[form])(dxf_drawing(scene.shapes, layers), scene.box, title)
+    return content
 
 
-def _svg_text(drawing: "Drawing", box: Box) -> str:
+def dxf_bytes(drawing: "Drawing", box: Box, title: str) -> bytes:
+    """Return a drawing as it is."""
+    stream = io.StringIO()
+    drawing.write(stream)
+    return stream.getvalue().encode()
+
+
+def svg_bytes(drawing: "Drawing", box: Box, title: str) -> bytes:
     """Return a drawing as SVG in its true size."""
     from ezdxf.addons.drawing.frontend import Frontend
     from ezdxf.addons.drawing.layout import Margins, Page, Settings, Units
@@ -41,14 +44,15 @@ def _svg_text(drawing: "Drawing", box: Box) -> str:
     left, bottom, width, height = box
     backend = SVGBackend()
     Frontend(RenderContext(drawing), backend, config=_ink(1.0)).draw_layout(drawing.modelspace())
-    return backend.get_string(
+    text = backend.get_string(
         Page(width, height, Units.mm, Margins.all(0.0)),
         settings=Settings(fit_page=False, output_coordinate_space=max(width, height) * _UNITS_PER_MM),
         render_box=BoundingBox2d([(left, bottom), (left + width, bottom + height)]),
     )
+    return text.encode()
 
 
-def _pdf_bytes(drawing: "Drawing", box: Box, title: str) -> bytes:
+def pdf_bytes(drawing: "Drawing", box: Box, title: str) -> bytes:
     """Return a drawing as a PDF page in its true size."""
     from ezdxf.addons.drawing.frontend import Frontend
     from ezdxf.addons.drawing.matplotlib import MatplotlibBackend

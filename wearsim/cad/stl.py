@@ -17,8 +17,9 @@ SURFACE_TOLERANCE = 1e-3
 """Distance [mm] of the surface of a wheel from its arcs and curves."""
 
 
-def stl_bytes(shapes: Sequence[WheelShape], state: State) -> bytes:
-    """Return wheels as the content of an STL file."""
+def stl_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
+    """Return wheels of one state as the content of an STL file."""
+    (state,) = states
     return _content(np.concatenate([_wheel_surface(shape, state) for shape in shapes]))
 
 

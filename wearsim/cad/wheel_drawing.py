@@ -102,6 +102,11 @@ def wheel_points(shapes: Sequence[WheelShape], states: Sequence[State]) -> "pd.D
     )
 
 
+def csv_bytes(shapes: Sequence[WheelShape], states: Sequence[State]) -> bytes:
+    """Return the points of wheels as the content of a CSV file."""
+    return wheel_points(shapes, states).to_csv(index=False).encode()
+
+
 def _rows(chain: OutlineChain) -> Iterator[tuple[int, str, float, float]]:
     """Tooth, stretch and place of every point of an outline."""
     for stretch, tooth in zip(chain.stretches, chain.teeth, strict=True):

@@ -3,13 +3,15 @@
 from collections.abc import Sequence
 
 from wearsim._version import __version__
+from wearsim.cad import WHEELS
 from wearsim.cad.printed_page import drawing_bytes
-from wearsim.cad.wheel_drawing import wheel_points, wheel_scene
+from wearsim.cad.wheel_drawing import wheel_scene
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.hub import NO_HUB
 from wearsim.geometry.wheel_outline import State, WheelShape
-from wearsim.quantities import grouped
+from wearsim.lazy import named
+from wearsim.quantities import either, grouped
 from wearsim.report.worn_flank import wheel_shapes
 from wearsim.result import WearResult
 
@@ -19,19 +21,12 @@ _TOLERANCE = 1e-3
 
 def export(case: Case, result: WearResult | None, states: Sequence[State], form: str) -> bytes:
     """Return the wheels of a case as the content of a file."""
-    shapes = wheel_shapes(case, result)
-    if form == "csv":
-        return wheel_points(shapes, states).to_csv(index=False).encode()
-    _check_hubs(case, shapes, states)
-    if form == "step":
-        from wearsim.cad.step import step_bytes
-
-        return step_bytes(shapes, states)
-    if form == "stl":
-        from wearsim.cad.stl import stl_bytes
-
-        (state,) = states
-        return stl_bytes(shapes, state)
+    shapes, wheel = wheel_shapes(case, result), WHEELS[form]
+    if wheel.hub:
+        _check_hubs(case, shapes, states)
+    if wheel.writer:
+        content: bytes = named(wheel.writer)(shapes, states)
+        return content
     drawn = [shape.with_few_arcs(_TOLERANCE) for shape in shapes]
     scene, layers = wheel_scene(drawn, states, wheel_note(case, result, shapes, states))
     return drawing_bytes(scene, layers, form)
@@ -40,10 +35,11 @@ def export(case: Case, result: WearResult | None, states: Sequence[State], form:
 def check_solid(case: Case, form: str | None) -> None:
     """Raise, before a case is worn, where it has no wheel or none that can be a solid."""
     shapes = wheel_shapes(case, None)
-    if form in ("step", "stl") and not all(shape.new[0].rooted for shape in shapes):
+    if form is not None and WHEELS[form].solid and not all(shape.new[0].rooted for shape in shapes):
+        flat = either(name for name, wheel in WHEELS.items() if not wheel.solid)
         message = (
             "the outline of both gears must be closed to be solids, but the case tells no root of their "
-            "teeth: take --format dxf, svg or csv, which hold the flanks"
+            f"teeth: take --format {flat}, which hold the flanks"
         )
         raise CaseError([Fault(message, "gear", case.name)])
 

@@ -6,7 +6,6 @@ from typing import Any
 import click
 
 from wearsim.command.complete import complete_chain
-from wearsim.drive.drive_start import start_text
 from wearsim.drive.known_drive import KNOWN, Known, Values, read_known
 from wearsim.errors import CaseError
 
@@ -30,6 +29,8 @@ def _completing(words: tuple[str, ...]) -> Callable[..., list[str]]:
 
 def ask_for_drive() -> str:
     """Ask for everything one by one, and again for what does not fit; return the text of the drive."""
+    from wearsim.drive.drive_start import start_text
+
     typed: dict[str, str | None] = {}
     questions = [known for known in KNOWN if known.asked]
     while True:

@@ -5,11 +5,13 @@ from typing import TYPE_CHECKING
 
 import click
 
+from wearsim.cad import DRAWINGS, STATES, WHEELS, format_by_ending
 from wearsim.command.cases_and_runs import loaded_sources, one_sprocket
 from wearsim.command.complete import RunPath
 from wearsim.command.options import common_options, overrides, sprocket_option, warn, working, worn
 from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import OutputError
+from wearsim.quantities import either
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -17,10 +19,8 @@ if TYPE_CHECKING:
     from wearsim.geometry.wheel_outline import State
     from wearsim.result import WearResult
 
-_FORMATS = ("dxf", "svg", "csv", "step", "stl")
-_GAUGES = ("pdf", "svg", "dxf")
-
-_STATES: "dict[str, tuple[State, ...]]" = {"new": ("new",), "worn": ("worn",), "both": ("new", "worn")}
+_FORMATS = tuple(WHEELS)
+_GAUGES = tuple(DRAWINGS)
 
 
 @click.command(short_help="Sprocket or gear for CAD, new or worn; wear-limit gauge.")
@@ -35,14 +35,15 @@ _STATES: "dict[str, tuple[State, ...]]" = {"new": ("new",), "worn": ("worn",), "
 )
 @click.option(
     "--state",
-    type=click.Choice(tuple(_STATES)),
+    type=click.Choice(tuple(STATES)),
     help="State of the wheel; default: new for a case, both for a run.",
 )
 @click.option(
     "--template",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="New file (.pdf, .svg or .dxf) for a go/no-go gauge of the wear limit, to print at 1:1.",
+    help=f"New file ({either(f'.{name}' for name in _GAUGES)}) for a go/no-go gauge of the wear limit, "
+    "to print at 1:1.",
 )
 @click.option("--force", is_flag=True, help="Replace existing files.")
 @sprocket_option
@@ -80,10 +81,10 @@ def export(
     _check_places(places, source, force)
     kind = None if out is None else format_of(out, form, _FORMATS, "--format")
     gauge = None if template is None else format_of(template, None, _GAUGES, ".pdf")
-    _check_step(kind)
+    _check_library(kind)
     case, result = _wheel(loaded, source, sprocket)
     shown = state or ("new" if result is None else "both")
-    states = _STATES[shown]
+    states = STATES[shown]
     _check_states(kind, states)
     from wearsim.cad.wheel_formats import check_solid
     from wearsim.cad.wheel_formats import export as content
@@ -104,7 +105,7 @@ def export(
 
 def _is_folder(out: Path) -> bool:
     """Tell whether a place is a folder for all wheels of a drive, and no file by its ending."""
-    return str(out) != "-" and out.suffix.lower() not in (*(f".{name}" for name in _FORMATS), ".stp")
+    return str(out) != "-" and format_by_ending(out) not in WHEELS
 
 
 def _export_all(drive: "DriveCase", out: Path, form: str, state: str, force: bool) -> None:
@@ -113,8 +114,8 @@ def _export_all(drive: "DriveCase", out: Path, form: str, state: str, force: boo
     from wearsim.drive.life import drive_life
     from wearsim.files import check_folder, file_names, new_folder
 
-    states = _STATES[state]
-    _check_step(form)
+    states = STATES[state]
+    _check_library(form)
     _check_states(form, states)
     check_folder(out, force)
     cases, results = drive.titled_cases(), {}
@@ -127,16 +128,17 @@ def _export_all(drive: "DriveCase", out: Path, form: str, state: str, force: boo
     warn(f"written to {out}: {len(cases)} wheels")
 
 
-def _check_step(kind: str | None) -> None:
-    if kind == "step":
+def _check_library(kind: str | None) -> None:
+    if kind and WHEELS[kind].library:
         from wearsim.extras import check_installed
 
-        check_installed(("build123d",), "step", "--format step")
+        check_installed((WHEELS[kind].library,), kind, f"--format {kind}")
 
 
 def _check_states(kind: str | None, states: "tuple[State, ...]") -> None:
-    if kind == "stl" and len(states) > 1:
-        raise click.UsageError("an STL file holds one state of the wheel: give --state new or --state worn")
+    one = WHEELS[kind].one_state if kind else ""
+    if one and len(states) > 1:
+        raise click.UsageError(f"{one} holds one state of the wheel: give --state new or --state worn")
 
 
 def _worn_out(case: "Case", result: "WearResult") -> "WearResult":

@@ -9,10 +9,9 @@ import click
 
 from wearsim.cli.drive_questions import ask_for_drive, drive_options
 from wearsim.command.options import common_options
-from wearsim.drive.drive_start import start_text
 from wearsim.drive.known_drive import KNOWN
 from wearsim.errors import CaseError, Fault
-from wearsim.geometry.forms import TOOTH_FORMS
+from wearsim.quantities import either
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -75,6 +74,8 @@ def _text(typed: Mapping[str, str | None], teeth: int | None, kind: str) -> str:
             )
         if at_terminal() and all(value is None for value in typed.values()):
             return ask_for_drive()
+        from wearsim.drive.drive_start import start_text
+
         return start_text(typed)
     given = [known for known in KNOWN if typed[known.name] is not None and known.option != "--chain"]
     if given:
@@ -135,6 +136,8 @@ def _size(case: "Case") -> tuple[float, float]:
 
 def _values(case: "Case") -> dict[str, Any]:
     """What the template shows of the defaults."""
+    from wearsim.geometry.forms import TOOTH_FORMS
+
     sprocket, stop = case.inputs["sprocket"], case.inputs["stop"]
     shown = {
         "chain": case.inputs["chain"]["designation"],
@@ -152,7 +155,7 @@ def _values(case: "Case") -> dict[str, Any]:
     forms = sorted(TOOTH_FORMS, key=lambda name: not TOOTH_FORMS[name].standard_gap)
     return shown | {
         "profile": sprocket["profile"],
-        "forms": f"{', '.join(forms[:-1])} or {forms[-1]}",
+        "forms": either(forms),
         "mate": drive["mate_teeth"],
         "links": drive["links"],
         "stiffness": drive["link_stiffness_N_per_mm"],

@@ -30,7 +30,9 @@ def check_place(place: Path, source: Path, force: bool) -> None:
 
 def format_of(place: Path, given: str | None, known: tuple[str, ...], hint: str) -> str:
     """Return the format of a file by its ending."""
-    found = given or place.suffix.removeprefix(".").lower().replace("stp", "step")
+    from wearsim.cad import format_by_ending
+
+    found = given or format_by_ending(place)
     if found not in known:
         endings = ", ".join(f".{name}" for name in known)
         raise OutputError(f"{place}: must end in one of {endings}: choose another name, or {hint}")

@@ -8,6 +8,7 @@ from typing import Any
 from wearsim.catalogue.catalogues import chains, known_chain_name, nearest
 from wearsim.chain.service_conditions import LUBRICATIONS, SHIFTS, SHOCKS, plain_word, service_conditions
 from wearsim.errors import Fault
+from wearsim.quantities import either
 
 _SAFETY = 20.0
 """Breaking load over the pull, before the factors of its use, where nobody knows the power."""
@@ -101,7 +102,7 @@ def _fixed(option: str, what: str, metavar: str, read: Callable[[str], Any], def
 
 
 def _one_of(option: str, what: str, words: tuple[str, ...]) -> Known:
-    every = f"{what}: {', '.join(words[:-1])} or {words[-1]}"
+    every = f"{what}: {either(words)}"
     return Known(option, every, "WORD", _word(words), lambda values: words[0], words[0], words)
 
 

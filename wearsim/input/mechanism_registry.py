@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from importlib import import_module
 from typing import Any
 
 from wearsim.geometry.forms import TOOTH_FORMS
@@ -10,6 +9,7 @@ from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document, is_whole_drive
 from wearsim.input.schema import CaseTables
 from wearsim.kernels.compiled import expect
+from wearsim.lazy import named
 
 _STRAND_FORMS = tuple(name for name, form in TOOTH_FORMS.items() if form.on_strand)
 _WRAP_FORMS = tuple(name for name in TOOTH_FORMS if name not in _STRAND_FORMS)
@@ -52,8 +52,7 @@ class MechanismEntry:
 
     def load(self, name: str) -> Any:
         """Return the object behind one of these fields."""
-        module, _, attribute = getattr(self, name).partition(":")
-        return getattr(import_module(module), attribute)
+        return named(getattr(self, name))
 
 
 _FLANK_KERNELS = (

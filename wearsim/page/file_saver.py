@@ -5,18 +5,18 @@ from pathlib import Path
 
 from nicegui import ui
 
+from wearsim.cad import STATES, WHEELS
 from wearsim.cad.wheel_formats import export
 from wearsim.case.model import Case
 from wearsim.errors import WearsimError
-from wearsim.geometry.wheel_outline import State
 from wearsim.page.case_file import NEW, CaseFile, example, example_titles, named_beside, new_file, read_file
 from wearsim.page.dialogs import ask_example, ask_export, ask_name, choose
 from wearsim.page.drive_questions import ask_drive
 from wearsim.page.threads import in_thread
 from wearsim.result import WearResult
 
-_FORMATS = ("dxf", "svg", "csv")
-_STATES: dict[str, tuple[State, ...]] = {"new": ("new",), "worn": ("worn",), "both": ("new", "worn")}
+_FORMATS = tuple(name for name, wheel in WHEELS.items() if not wheel.solid)
+"""A solid takes long, and may hold one state only: that is for the command."""
 
 
 class FileSaver:
@@ -101,13 +101,13 @@ class FileSaver:
         if not names:
             ui.notify("There is no result for this input yet: wait for it, or correct the input.")
             return
-        wanted = await ask_export(names, _FORMATS, tuple(_STATES))
+        wanted = await ask_export(names, _FORMATS, tuple(STATES))
         found = self._found()
         if wanted is None or wanted[0] not in found:
             return
         name, form, state = wanted
         case, result = found[name]
-        states = _STATES[state]
+        states = STATES[state]
         worn = result if "worn" in states else None
         try:
             content = await in_thread(lambda: export(case, worn, states, form))

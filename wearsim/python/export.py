@@ -1,12 +1,13 @@
 """The wheel for CAD, and a gauge of its wear limit."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from wearsim._version import ANSWER_HEAD
+from wearsim.cad import DRAWINGS, STATES, WHEELS, States, format_by_ending
 from wearsim.cad.gauge_sheet import gauge_sheet, is_worn_out, long_enough
 from wearsim.cad.wheel_drawing import wheel_points
 from wearsim.cad.wheel_formats import check_solid
@@ -26,12 +27,6 @@ from wearsim.simulation import simulate
 
 if TYPE_CHECKING:
     import pandas as pd
-
-FORMATS = ("dxf", "svg", "csv", "step", "stl")
-GAUGES = ("pdf", "svg", "dxf")
-States = Literal["new", "worn", "both"]
-
-_STATES: dict[States, tuple[State, ...]] = {"new": ("new",), "worn": ("worn",), "both": ("new", "worn")}
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -81,7 +76,7 @@ class ExportResult(Answer):
         Parameters
         ----------
         form : str
-            ``dxf``, ``svg``, ``csv``, ``step`` (extra ``step``) or ``stl``.
+            One of ``wearsim export --format``; ``step`` takes the extra ``step``.
 
         Returns
         -------
@@ -92,7 +87,10 @@ class ExportResult(Answer):
         ------
         CaseError
             The wheels cannot be drawn so.
+        GeometryError
+            There is no such format.
         """
+        check_ranges("content", {"form": form}, {"form": tuple(WHEELS)})
         check_solid(self.case, form)
         return content(self.case, self.result, self.states, form)
 
@@ -134,11 +132,11 @@ def export(
     source : Case, DriveCase, WearResult, DriveLife, path or mapping
         What has the wheel; a worn wheel of a case is worn first.
     out : path, optional
-        New file of the wheel: .dxf, .svg, .csv, .step or .stl.
+        New file of the wheel; its ending is one of the formats of ``wearsim export --format``.
     state : str, optional
         ``new``, ``worn`` or ``both``; without it new for a case, both for a result.
     template : path, optional
-        New file (.pdf, .svg or .dxf) of a go/no-go gauge of the wear limit.
+        New file of a go/no-go gauge of the wear limit; its ending is one of ``wearsim export --template``.
     sprocket : str, optional
         Which sprocket of a whole drive, by its name. A whole drive needs it: one call exports one wheel.
     force : bool
@@ -172,11 +170,11 @@ def export(
     >>> round(float((wheel.outline.x_mm**2 + wheel.outline.y_mm**2).max()) ** 0.5, 6)
     41.0
     """
-    check_ranges("export", {"state": state}, {"state": (*_STATES, None)})
+    check_ranges("export", {"state": state}, {"state": (*STATES, None)})
     case, result = _case(source, sprocket)
-    states = _STATES[state or ("new" if result is None else "both")]
-    forms = [_format(out, FORMATS), _format(template, GAUGES)]
-    if forms[0] == "stl" and len(states) > 1:
+    states = STATES[state or ("new" if result is None else "both")]
+    forms = [_format(out, WHEELS), _format(template, DRAWINGS)]
+    if forms[0] and WHEELS[forms[0]].one_state and len(states) > 1:
         raise OutputError(f"{out}: must hold one state of the wheel, but two are given: take new or worn")
     check_solid(case, forms[0])
     for place in (out, template):
@@ -207,11 +205,11 @@ def _case(source: CaseInput | WearResult | DriveLife, sprocket: str | None) -> t
     return cases[sprocket], source.results[sprocket] if isinstance(source, DriveLife) else None
 
 
-def _format(place: str | PathLike[str] | None, known: Sequence[str]) -> str | None:
+def _format(place: str | PathLike[str] | None, known: Iterable[str]) -> str | None:
     """Return the format of a file by its ending."""
     if place is None:
         return None
-    form = Path(place).suffix.removeprefix(".").lower().replace("stp", "step")
+    form = format_by_ending(Path(place))
     if form not in known:
         endings = ", ".join(f".{name}" for name in known)
         raise OutputError(f"{place}: must end in one of {endings}: choose another name")

@@ -2,8 +2,9 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
+
+from wearsim.lazy import named
 
 if TYPE_CHECKING:
     from wearsim.geometry.gap import Gap
@@ -22,7 +23,7 @@ class ToothForm:
     own_keys: tuple[str, ...] = ()  # of [sprocket], that belong to it
     file: str = ""  # the one of them that it cannot do without
     on_strand: str = ""  # what its sprocket is called on a guided strand; empty where it is made for a wrap
-    standard_gap: str = ""  # `module:function` of this package; empty where no standard gives it
+    standard_gap: str = ""  # `module:function`; empty where no standard gives it
     options: Mapping[str, Any] = field(default_factory=dict)  # keys that the function takes, with defaults
     series: tuple[str, ...] = ()  # of the catalogue, whose chains it is cut for
     usual_for: tuple[str, ...] = ()  # those of them for which new sprockets have this form
@@ -34,9 +35,7 @@ class ToothForm:
 
     def gap(self, pitch: float, roller_diameter: float, teeth: int, **options: Any) -> "Gap":
         """Make the gap of a standard; options are its own, `seat_centre` and `tip_diameter` [mm]."""
-        module, _, function = self.standard_gap.partition(":")
-        make = getattr(import_module(f"{__name__}.{module}"), function)
-        gap: Gap = make(pitch, roller_diameter, teeth, **options)
+        gap: Gap = named(self.standard_gap)(pitch, roller_diameter, teeth, **options)
         return gap
 
 
@@ -49,18 +48,18 @@ TOOTH_FORMS = {
     ),
     "iso606": ToothForm(
         own_keys=BETWEEN_FORMS,
-        standard_gap="iso606:iso606_gap",
+        standard_gap="wearsim.geometry.forms.iso606:iso606_gap",
         options={"form": "min"},
         series=("ISO606-A/ANSI B29.1", "ISO606-B", "ISO606-H"),
         usual_for=("ISO606-B",),
     ),
     "ansi_b29": ToothForm(
-        standard_gap="ansi_b29:ansi_b29_gap",
+        standard_gap="wearsim.geometry.forms.ansi_b29:ansi_b29_gap",
         series=("ISO606-A/ANSI B29.1", "ISO606-H"),
         usual_for=("ISO606-A/ANSI B29.1", "ISO606-H"),
     ),
     "gost591": ToothForm(
-        standard_gap="gost591:gost591_gap",
+        standard_gap="wearsim.geometry.forms.gost591:gost591_gap",
         options={"displaced": False},
         series=("GOST13568",),
         usual_for=("GOST13568",),
