@@ -1,11 +1,13 @@
 """A member of a list is known wherever the list is used."""
 
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import wearsim
+from tests.drives import STRAND
 from wearsim.cad import DRAWINGS, STATES, WHEELS
 from wearsim.cad.printed_page import drawing_bytes
 from wearsim.catalogue.catalogues import chains
@@ -17,7 +19,8 @@ from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.geometry.scene import Scene, line
 from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.input.schema import SprocketTable
-from wearsim.quantities import either
+from wearsim.quantities import either, quantities
+from wearsim.result import WearResult
 
 DOCS = Path(__file__).parents[2] / "docs"
 STANDARDS = [name for name, form in TOOTH_FORMS.items() if form.standard_gap]
@@ -93,3 +96,31 @@ def test_a_drawing_is_written_in_every_format_of_a_gauge(form):
 def test_no_other_format_is_written(tmp_path):
     with pytest.raises(wearsim.WearsimError, match="must be one of dxf, svg, csv, step, stl, is 'pdf'"):
         wearsim.export(SPROCKET).content("pdf")
+
+
+@pytest.fixture(scope="module")
+def result():
+    return wearsim.simulate(STRAND)
+
+
+@pytest.mark.parametrize("table", ["history", "flank"])
+def test_a_column_that_a_run_adds_is_saved_and_read(result, table, tmp_path):
+    """It takes a row of quantities beside what computes it."""
+    parquet = pytest.importorskip("pyarrow.parquet")
+    columns = getattr(result, f"{table}_columns")
+    added = {**columns, "tip_land_mm": 0.5 * columns["cycles"]}
+    replace(result, **{f"{table}_columns": added}).save(tmp_path / "run", parquet=True)
+    read = getattr(WearResult.load(tmp_path / "run"), f"{table}_columns")
+    assert [*read] == [*added] and all((read[name] == added[name]).all() for name in added)
+    field = parquet.read_schema(tmp_path / "run" / f"{table}.parquet").field("tip_land_mm")
+    assert field.metadata == {b"unit": quantities()["tip_land_mm"].unit.encode()}
+
+
+@pytest.mark.parametrize("name", ["no_such_quantity", "depth_mm"])
+def test_a_column_of_no_quantity_or_twice_is_no_result(result, name, tmp_path):
+    result.save(tmp_path / "run")
+    file = tmp_path / "run" / "flank.csv"
+    head, *rows = file.read_text().split()
+    file.write_text("\n".join([f"{head},{name}", *(f"{row},1" for row in rows)]))
+    with pytest.raises(wearsim.WearsimError, match=r"flank.csv must hold rows of cycles, .*_per_mm$"):
+        WearResult.load(tmp_path / "run")

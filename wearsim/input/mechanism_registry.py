@@ -36,7 +36,7 @@ FLANK = (
     "load_per_width_N_per_mm",
     "relative_curvature_per_mm",
 )
-"""Columns of both tables where a mechanism names no others."""
+"""Columns that both tables have at least, where a mechanism names no others."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,8 @@ class MechanismEntry:
 
     tables: str  # `module:class` of the tables of its input
     read: str  # `module:function` from a document to a complete case
-    history: tuple[str, ...] = HISTORY  # columns of history.csv
-    flank: tuple[str, ...] = FLANK  # columns of flank.csv
+    history: tuple[str, ...] = HISTORY  # columns that history.csv has at least
+    flank: tuple[str, ...] = FLANK  # columns that flank.csv has at least
     # kernels that a life takes, which are compiled together: `module.function` of wearsim.kernels
     kernels: tuple[str, ...] = ()
 

@@ -231,13 +231,16 @@ def _write_json(path: Path, value: Mapping[str, Any]) -> None:
     path.write_text(text + "\n", encoding="utf-8")
 
 
-def _read_columns(path: Path, names: tuple[str, ...]) -> dict[str, Vector]:
+def _read_columns(path: Path, least: tuple[str, ...]) -> dict[str, Vector]:
+    """Columns of a table by the names in its head: those that it has at least, and any other quantity."""
     head, _, body = path.read_text(encoding="utf-8").partition("\n")
     # Twice, as two empty cells beside each other share a comma.
     filled = body.replace(",,", ",nan,").replace(",,", ",nan,").replace(",\n", ",nan\n")
     rows = filled.splitlines()
-    if not rows or tuple(head.split(",")) != names:
-        raise ValueError(f"{path.name} must hold rows of {', '.join(names)}")
+    names = head.split(",")
+    whole = set(least) <= set(names) <= quantities().keys() and len(set(names)) == len(names)
+    if not rows or not whole:
+        raise ValueError(f"{path.name} must hold rows of {', '.join(least)}")
     table = np.loadtxt(rows, delimiter=",", comments=None, ndmin=2)
     columns = dict(zip(names, np.ascontiguousarray(table.T), strict=True))
     return {
