@@ -185,12 +185,7 @@ class WearInput:
 
     law: str  # a law of the registry, `wearsim list wear-laws`
     coefficient: float  # k [mm2/N], K [1/MPa^m], the intensity K, or a factor on published constants
-    pressure_exponent: float  # m; 1 for archard
-    # hardness, reference_speed, speed_exponent: H [MPa], v0 [mm/s] and n of the Drozdov law; 1, 1 and 0 for
-    # the others
-    hardness: float
-    reference_speed: float
-    speed_exponent: float
+    constants: Mapping[str, float]  # all others of the law, by their keys in the order of the registry
     # low, high: the coefficient at the ends of its band, as factors of it
     low: float
     high: float
@@ -212,7 +207,11 @@ class WearInput:
     # many times as high
     pv_limit: float = math.inf
     severe_factor: float = 1.0
-    friction: float = 0.0  # coefficient of friction, of `t_gamma`
+
+    @property
+    def pressure_exponent(self) -> float:
+        """Power m of the pressure; 1 of a law without a key for it."""
+        return self.constants.get("pressure_exponent", 1.0)
 
     @property
     def is_steady(self) -> bool:
