@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.power_rating import RATED_HOURS
-from wearsim.chain.selection import RATED_FOR_HOURS, RatingFinding
+from wearsim.chain.selection import RatingFinding, rated_for_hours
 from wearsim.contact.stop_limits import LIMITS as STOP_LIMITS
 from wearsim.quantities import DAYS_OF_YEAR, grouped
 from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
@@ -51,7 +51,7 @@ def headline(result: WearResult) -> str:
 
 def beyond_ratings(overloaded: Sequence[RatingFinding]) -> str:
     """Return in words which ratings for 15 000 h a drive is beyond; empty where it is within."""
-    beyond = [used_text(finding) for finding in overloaded if finding.name in RATED_FOR_HOURS]
+    beyond = [used_text(finding) for finding in rated_for_hours(overloaded)]
     return f"beyond its rating for {grouped(RATED_HOURS)} h: {', '.join(beyond)}" if beyond else ""
 
 
