@@ -1,6 +1,7 @@
 """The one table of names: every input key and output column with symbol, unit and meaning; its numbers."""
 
 import csv
+import math
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -26,6 +27,42 @@ def quantities() -> dict[str, Quantity]:
     """Return all quantities by name."""
     with Path(__file__).with_suffix(".csv").open(encoding="utf-8", newline="") as file:
         return {row["name"]: Quantity(**row) for row in csv.DictReader(file)}
+
+
+_PERCENTILE = re.compile(r"p(\d+)_hours")
+
+
+@cache
+def percentile_shares() -> tuple[float, ...]:
+    """Shares of all lives that end before each percentile which is reported: a row of the table each.
+
+    Examples
+    --------
+    >>> percentile_shares()
+    (0.1, 0.5, 0.9)
+    """
+    return tuple(int(found[1]) / 100 for found in map(_PERCENTILE.fullmatch, quantities()) if found)
+
+
+def percentile_name(share: float) -> str:
+    """Name of the percentile of a share: P10 of 0.1."""
+    return f"P{100 * share:.0f}"
+
+
+def percentile_meaning(share: float) -> str:
+    """Words for how many lives are longer than the percentile of a share.
+
+    Examples
+    --------
+    >>> percentile_meaning(0.1), percentile_meaning(0.5), percentile_meaning(0.9)
+    ('9 of 10 live longer', 'half live longer', '1 of 10 lives longer')
+    """
+    if share == 0.5:
+        return "half live longer"
+    longer = 100 - round(100 * share)
+    common = math.gcd(longer, 100)
+    longer, every = longer // common, 100 // common
+    return f"{longer} of {every} {'lives' if longer == 1 else 'live'} longer"
 
 
 def grouped(value: float, digits: int = 4) -> str:

@@ -2,11 +2,11 @@
 
 import json
 import re
-from importlib.resources import files
 
 import jsonschema
 import pytest
 
+from wearsim.cli.schema import result_schema
 from wearsim.drive.load_case import load_case
 from wearsim.simulation import simulate
 
@@ -38,8 +38,7 @@ TOO_COARSE = {"critical_depth_mm": '0.02\n[run]\nmethod = "per_cycle"\ncycles_pe
 
 @pytest.fixture(scope="module")
 def conforms():
-    text = files("wearsim").joinpath("result.schema.json").read_text("utf-8")
-    return jsonschema.Draft202012Validator(json.loads(text)).validate
+    return jsonschema.Draft202012Validator(result_schema()).validate
 
 
 def strict(line):

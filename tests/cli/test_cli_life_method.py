@@ -2,11 +2,11 @@
 
 import json
 import re
-from importlib.resources import files
 
 import jsonschema
 import pytest
 
+from wearsim.cli.schema import result_schema
 from wearsim.errors import ConvergenceError
 
 GEARS = """\
@@ -119,9 +119,8 @@ def strand(tmp_path):
 
 def line_of(done):
     (line,) = done.out.splitlines()
-    text = files("wearsim").joinpath("result.schema.json").read_text("utf-8")
     content = json.loads(line)
-    jsonschema.Draft202012Validator(json.loads(text)).validate(content)
+    jsonschema.Draft202012Validator(result_schema()).validate(content)
     return content
 
 

@@ -2,13 +2,13 @@
 
 import json
 import re
-from importlib.resources import files
 
 import jsonschema
 import numpy as np
 import pytest
 
 import wearsim
+from wearsim.cli.schema import result_schema
 from wearsim.result import Life, LowerBound, WearResult
 
 CASE = """
@@ -55,8 +55,7 @@ def wrapped(tmp_path):
 
 @pytest.fixture(scope="module")
 def conforms():
-    text = files("wearsim").joinpath("result.schema.json").read_text("utf-8")
-    return jsonschema.Draft202012Validator(json.loads(text)).validate
+    return jsonschema.Draft202012Validator(result_schema()).validate
 
 
 def strict(line):

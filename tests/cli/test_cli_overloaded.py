@@ -7,13 +7,13 @@ P = 0.5 in, 4.60 kW, of the rollers 1000 * 17 (z/n)^1.5 P^0.8 hp; 1 hp = 0.74569
 import json
 import re
 import tomllib
-from importlib.resources import files
 
 import jsonschema
 import openpyxl
 import pytest
 
 import wearsim
+from wearsim.cli.schema import result_schema
 from wearsim.report.answer import answer
 from wearsim.result import WearResult
 
@@ -88,7 +88,7 @@ def test_a_drive_inside_its_ratings_says_nothing(drive):
 
 def test_json_lists_ratings_with_margins(drive):
     line = json.loads(json.dumps(drive()[0].summary()))
-    schema = json.loads(files("wearsim").joinpath("result.schema.json").read_text("utf-8"))
+    schema = result_schema()
     jsonschema.Draft202012Validator(schema).validate(line)
     names = ["plate fatigue", "corrected power", "joint pressure"]
     assert [entry["name"] for entry in line["overloaded"]] == names

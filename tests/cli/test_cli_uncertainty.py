@@ -8,6 +8,7 @@ import pytest
 
 from wearsim.drive.load_case import load_case
 from wearsim.input.document import read_document
+from wearsim.quantities import Quantity, percentile_shares, quantities
 from wearsim.runner.scatter import plain_document
 
 SCATTER = """\
@@ -256,3 +257,25 @@ def test_cases_of_a_study_keep_the_joints_of_their_condition():
     plain = plain_document(document, load_case(tables)).data
     assert plain["wear"] == {"condition": "hardened, dry", "specific_wear_rate_mm2_per_N": 1e-8}
     assert load_case(plain).drive.joint.coefficient == 7e-9
+
+
+def test_a_percentile_of_the_table_of_names_reaches_every_table(cli, case, tmp_path, monkeypatch):
+    """Its row is all that a new percentile takes; hours that are required stay those of P10."""
+    table = {"p5_hours": Quantity("p5_hours", "L_5", "h", "life that 19 of 20 drives exceed")} | quantities()
+    monkeypatch.setattr("wearsim.quantities.quantities", lambda: table)
+    percentile_shares.cache_clear()
+    try:
+        path = case(SCATTER % 0.3)
+        _, found = answer(cli, path, "--samples", 64)
+        assert found["p5_hours_low"] <= found["p5_hours"] < found["p10_hours"]
+        options = ("--samples", 64, "--require-hours", 0.99 * found["p10_hours"], "--out", tmp_path / "out")
+        done = cli("uncertainty", path, *options)
+        page = cli("report", path, "--out", tmp_path / "page")
+    finally:
+        percentile_shares.cache_clear()
+    assert (done.code, page.code) == (0, 0)
+    assert re.search(r"^P5 .* 19 of 20 live longer$", done.out, re.MULTILINE)
+    columns = (tmp_path / "out" / "convergence.csv").read_text().splitlines()[0]
+    assert columns == "samples,p5_hours,p10_hours,p50_hours,p90_hours"
+    assert "P5, P10, P50, P90" in (tmp_path / "out" / "lives.svg").read_text()
+    assert "P5: 19 of 20 live longer" in (tmp_path / "page" / "index.html").read_text()

@@ -141,7 +141,6 @@ def read(document):
         turns_per_cycle=1,
         wear=wear,
         critical_depth=tables.stop.critical_depth_mm,
-        min_tip_land=0.0,
         more_limits={},
         run=run,
         fatigue=None,

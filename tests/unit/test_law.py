@@ -1,12 +1,16 @@
 """Wear laws as the engine takes them; expected values are the formulas written out here."""
 
+import inspect
 import math
 
 import numpy as np
 import pytest
 
+from wearsim.catalogue.catalogues import wear_laws
 from wearsim.contact.engagement import ContactKind
+from wearsim.input.schema.wear_tables import WearTable
 from wearsim.kernels.hertz_wear import wear_depth
+from wearsim.wear.law import LAWS as CONSTRUCTORS
 from wearsim.wear.law import WearLaw, archard, drozdov, mean_pressure_factor, power
 
 MODULUS = 115384.6153846154
@@ -98,3 +102,13 @@ def test_diffusion_exponent_is_the_slope_of_the_depth(kind: ContactKind, m: floa
 @pytest.mark.parametrize("exponent", [0.1, 1.0, 2.0, 4.0])
 def test_mean_pressure_factor_falls_with_the_exponent(exponent: float) -> None:
     assert 1.0 > mean_pressure_factor(exponent) > mean_pressure_factor(exponent + 0.5) > 0.0
+
+
+def test_every_law_of_the_registry_has_a_constructor_that_takes_its_keys_and_they_are_input() -> None:
+    registry = {name: entry.keys for name, entry in wear_laws().items() if entry.kind == "law"}
+    assert registry.keys() == CONSTRUCTORS.keys()
+    for name, keys in registry.items():
+        arguments = list(inspect.signature(CONSTRUCTORS[name]).parameters)
+        assert len(arguments) == len(keys), name
+        assert all(map(str.startswith, keys[1:], arguments[1:])), name
+        assert set(keys) <= WearTable.model_fields.keys()

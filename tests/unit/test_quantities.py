@@ -3,7 +3,6 @@
 import csv
 import json
 import typing
-from importlib.resources import files
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -16,6 +15,7 @@ from tests.drives import STRAND, changed
 from wearsim.cad.wheel_drawing import wheel_points
 from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.cli.main import wearsim_command
+from wearsim.cli.schema import result_schema
 from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
 from wearsim.drive.load_case import load_case
 from wearsim.input.csv_tables import read_prescribed
@@ -186,7 +186,7 @@ def written(tmp_path_factory):
     """Every column and key that goes out."""
     case = load_case(CASE)
     result = wearsim.simulate(case)
-    schema = json.loads(files("wearsim").joinpath("result.schema.json").read_text("utf-8"))
+    schema = result_schema()
     return {
         *result.history,
         *result.flank,

@@ -3,7 +3,6 @@
 import dataclasses
 import json
 import shutil
-from importlib.resources import files
 
 import jsonschema
 import numpy as np
@@ -12,6 +11,7 @@ import pytest
 
 import wearsim
 from tests import drives
+from wearsim.cli.schema import result_schema
 from wearsim.drive.load_case import load_case
 from wearsim.errors import LimitNotReachedError, OutputError
 from wearsim.report.flank_view import profile_table
@@ -114,11 +114,10 @@ def test_lock_runs_again_to_the_same_numbers_anywhere(results, kind, tmp_path):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_summary_conforms_to_its_schema(results, kind):
-    text = files("wearsim").joinpath("result.schema.json").read_text("utf-8")
     result, _ = results(kind)
     line = json.loads(json.dumps(result.summary(), allow_nan=False))
-    jsonschema.Draft202012Validator.check_schema(json.loads(text))
-    jsonschema.Draft202012Validator(json.loads(text)).validate(line)
+    jsonschema.Draft202012Validator.check_schema(result_schema())
+    jsonschema.Draft202012Validator(result_schema()).validate(line)
     assert next(iter(line)) == "schema_version"
 
 

@@ -14,7 +14,7 @@ import pytest
 from wearsim.catalogue.catalogues import chains, wear_conditions
 from wearsim.chain.drive_layout import layout_with_links
 from wearsim.chain.power_rating import HORSEPOWER
-from wearsim.chain.selection import RULES, overloading
+from wearsim.chain.selection import RATINGS, overloading
 from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS, service_conditions
 from wearsim.chain.span_tension import shaft_load
 from wearsim.errors import CaseError
@@ -430,7 +430,7 @@ def test_what_decides_is_what_overloads() -> None:
             outside = {finding.name for finding in overloading(one.findings)}
             refusing = {refusal.limit for refusal in one.refusals}
             assert bool(outside) == bool(outside & refusing)
-            assert refusing & set(RULES) <= outside
+            assert refusing & set(RATINGS) <= outside
 
 
 def test_nearest_miss_is_beyond_by_least() -> None:

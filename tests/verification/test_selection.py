@@ -31,6 +31,7 @@ from wearsim.chain.power_rating import (
     tooth_factor,
 )
 from wearsim.chain.selection import (
+    RATINGS,
     RatedDrive,
     RatingFinding,
     assess,
@@ -42,6 +43,7 @@ from wearsim.chain.selection import (
 )
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import CaseError
+from wearsim.result.ends import rating_ends
 
 RATING_40 = 6.17 * HORSEPOWER
 
@@ -508,3 +510,19 @@ def test_numbers_and_words_that_cannot_be(call, message: str) -> None:
 )
 def test_every_row_has_a_source(table: str) -> None:
     assert all(row["source"].strip() for row in catalogue_rows(table))
+
+
+def test_every_rating_of_the_list_is_found_in_its_order_and_no_other() -> None:
+    drive = RatedDrive(25.4, 20, 750.0, 20.0, bearing_area=180.0, tensile=60_000.0, links=100.0)
+    assert [found.name for found in assess(drive)] == list(RATINGS)
+
+
+def test_a_chain_ends_by_the_ratings_that_say_so() -> None:
+    ratings = [RatingFinding(name, 1.0, 2.0, "rpm", "whose", hours=500.0) for name in RATINGS]
+    ends = {end.mode: (end.hours, end.verdict) for end in rating_ends(ratings)}
+    within = "within its rating for 15 000 h: 50 % used"
+    assert ends == {
+        "link plate fatigue": (500.0, within),
+        "roller and bush impact": (500.0, within),
+        "galling of pin and bush": (500.0, "within its limit of speed: 50 % used"),
+    }

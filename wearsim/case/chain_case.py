@@ -20,6 +20,7 @@ from wearsim.case.table_inputs import (
     wear_input,
 )
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
+from wearsim.contact.stop_limits import CHAIN_LIMITS
 from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
@@ -74,8 +75,6 @@ def _complete(tables: CaseTables, document: Document, build: Builder, tolerance:
     duty = complete_duty(case, kind, chain)
     drive = build(case, wear, chain, duty)
     critical_depth = _critical_depth(case, drive)
-    if tables.stop.min_tip_land_mm is not None:
-        _check_tip_land(case, drive, tables.stop.min_tip_land_mm)
     more_limits = _more_limits(case, drive)
     run = run_input(case, tables.run, tolerance)
     fatigue = fatigue_input(case, tables.fatigue)
@@ -96,7 +95,6 @@ def _complete(tables: CaseTables, document: Document, build: Builder, tolerance:
         turns_per_cycle=_turns_per_cycle(case),
         wear=wear,
         critical_depth=critical_depth,
-        min_tip_land=tables.stop.min_tip_land_mm or 0.0,
         more_limits=more_limits,
         run=run,
         fatigue=fatigue,
@@ -220,36 +218,22 @@ def _check_depth(case: ChainRecord, drive: Drive | None, depth: float) -> None:
         )
 
 
-def _check_tip_land(case: ChainRecord, drive: Drive | None, min_tip_land: float) -> None:
-    key = "stop.min_tip_land_mm"
-    if drive is None:
-        return
-    if not drive.has_tooth:
-        case.faults.add(key, "a table of loads has no tooth and no tip: remove this key")
-    elif drive.tip_land <= min_tip_land:
-        case.faults.add(
-            key,
-            f"must be below the tip land of the new tooth, {drive.tip_land:.4g} mm (got {min_tip_land:g})",
-        )
-
-
 def _more_limits(case: ChainRecord, drive: Drive | None) -> dict[str, float]:
-    """Limits of the worn tooth beyond depth and tip land, by their keys."""
-    stop = case.tables.stop
-    keys = ("case_depth_mm", "min_tooth_thickness_mm", "over_pins_change_mm", "min_slack_tension_N")
-    given = {key: value for key in keys if (value := getattr(stop, key)) is not None}
-    least = given.get("min_tooth_thickness_mm")
-    if least is not None and drive is not None:
-        key = "stop.min_tooth_thickness_mm"
+    """Limits beyond the critical depth by their keys; what a tooth falls to lies below what it has new."""
+    found = {}
+    for row in CHAIN_LIMITS[1:]:
+        limit = getattr(case.tables.stop, row.key)
+        if limit is None:
+            continue
+        found[row.key] = limit
+        if drive is None or row.new is None:
+            continue
         if not drive.has_tooth:
-            case.faults.add(key, "a table of loads has no tooth: remove this key")
-        elif drive.pitch_line_thickness <= least:
-            case.faults.add(
-                key,
-                "must be below the thickness of the new tooth at the pitch line, "
-                f"{drive.pitch_line_thickness:.4g} mm (got {least:g})",
-            )
-    return given
+            case.faults.add(f"stop.{row.key}", f"a table of loads has {row.needs}: remove this key")
+        elif row.new(drive) <= limit:
+            text = f"must be below {row.new_words}, {row.new(drive):.4g} mm (got {limit:g})"
+            case.faults.add(f"stop.{row.key}", text)
+    return found
 
 
 def _check_load(data: Mapping[str, Any], faults: Faults) -> None:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple, TypeVar
 
@@ -12,7 +13,7 @@ from wearsim.case.input_lines import input_lines
 from wearsim.case.lubrication_input import LubricationInput
 from wearsim.chain.selection import RatingFinding
 from wearsim.contact.engagement import ContactKind, Engagement, FlankContact, Mechanism
-from wearsim.contact.stop_limits import StopLimit, depth_limit, falling, rising, tip_land_limit
+from wearsim.contact.stop_limits import LIMITS, StopLimit, deepest, stop_limit
 from wearsim.errors import CaseError, Fault
 from wearsim.fatigue.contact_fatigue import FlankMaterial, fatigue_life
 from wearsim.fatigue.endurance import EnduredHours
@@ -150,20 +151,13 @@ class Drive:
 
     def tooth_limits(self, case: "Case") -> tuple[StopLimit, ...]:
         """Return the limits of a worn flank or outline on its own, the critical depth first."""
-        more = case.more_limits
-        found = [depth_limit(case.critical_depth)]
-        if "case_depth_mm" in more:
-            found.append(
-                rising("case_depth_mm", more["case_depth_mm"], lambda x, y, depth: float(depth.max()))
-            )
-        if self.has_tooth and case.min_tip_land:
-            found.append(tip_land_limit(case.min_tip_land, self.worn_tip_land))
-        if self.has_tooth and "min_tooth_thickness_mm" in more:
-            thickness = more["min_tooth_thickness_mm"]
-            found.append(
-                falling("min_tooth_thickness_mm", thickness, lambda x, y, depth: self.worn_thickness(x, y))
-            )
-        return tuple(found)
+        given = {"critical_depth_mm": case.critical_depth, **case.more_limits}
+        known = [row for row in LIMITS.values() if row.key in given and (self.has_tooth or not row.needs)]
+        # Limits on the depth come first: of several that are met at once the first is named.
+        known.sort(key=lambda row: row.worn is not deepest)
+        return tuple(
+            stop_limit(row.key, given[row.key], partial(row.worn, self)) for row in known if row.worn
+        )
 
     def fatigue_lives(
         self, case: "Case", fatigue: "FatigueInput", stresses: Sequence[tuple[float, float]]
@@ -191,12 +185,7 @@ class WearInput:
 
     law: str  # a law of the registry, `wearsim list wear-laws`
     coefficient: float  # k [mm2/N], K [1/MPa^m], the intensity K, or a factor on published constants
-    pressure_exponent: float  # m; 1 for archard
-    # hardness, reference_speed, speed_exponent: H [MPa], v0 [mm/s] and n of the Drozdov law; 1, 1 and 0 for
-    # the others
-    hardness: float
-    reference_speed: float
-    speed_exponent: float
+    constants: Mapping[str, float]  # all others of the law, by their keys in the order of the registry
     # low, high: the coefficient at the ends of its band, as factors of it
     low: float
     high: float
@@ -218,7 +207,11 @@ class WearInput:
     # many times as high
     pv_limit: float = math.inf
     severe_factor: float = 1.0
-    friction: float = 0.0  # coefficient of friction, of `t_gamma`
+
+    @property
+    def pressure_exponent(self) -> float:
+        """Power m of the pressure; 1 of a law without a key for it."""
+        return self.constants.get("pressure_exponent", 1.0)
 
     @property
     def is_steady(self) -> bool:
@@ -314,10 +307,8 @@ class Case:
         The wear law.
     critical_depth : float
         Depth at which the life ends [mm].
-    min_tip_land : float
-        Tip land at which the life ends [mm], 0 for no such limit.
     more_limits : mapping
-        Further limits of the worn tooth by their keys.
+        Further limits that were given, by their keys.
     run : RunInput
         How the life is calculated.
     fatigue : FatigueInput or None
@@ -344,7 +335,6 @@ class Case:
     turns_per_cycle: int
     wear: WearInput
     critical_depth: float
-    min_tip_land: float
     more_limits: Mapping[str, float]
     run: RunInput
     fatigue: FatigueInput | None

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from wearsim.case.duty_blocks import GivenLoad
 from wearsim.case.model import FatigueInput, FilmInput, RunInput, WearInput
-from wearsim.catalogue.catalogues import Chain, materials, wear_conditions
+from wearsim.catalogue.catalogues import Chain, materials, wear_conditions, wear_laws
 from wearsim.contact.hertz import contact_modulus
 from wearsim.fatigue.contact_fatigue import FlankMaterial
 from wearsim.input.case_record import CaseRecord, ChainRecord
@@ -94,12 +94,13 @@ def wear_input(case: CaseRecord, table: WearTable) -> WearInput:
 
 
 def _law(case: CaseRecord, table: WearTable) -> WearInput:
-    coefficient = table.specific_wear_rate_mm2_per_N or table.coefficient
+    key, *constants = wear_laws()[table.law].keys
+    coefficient: float | None = getattr(table, key)
     if table.condition is not None and coefficient is None:
         return _condition(case, table, table.condition)
     assert coefficient is not None
     low, high = _PLAUSIBLE_WEAR_RATE
-    if table.law == "archard" and not low <= coefficient <= high:
+    if key == "specific_wear_rate_mm2_per_N" and not low <= coefficient <= high:
         case.warnings.append(
             f"wear.specific_wear_rate_mm2_per_N = {coefficient:g} is outside {low:g}..{high:g}: "
             "1 mm3/(N m) is 1e-3 mm2/N, so check for a factor of 1000"
@@ -109,11 +110,7 @@ def _law(case: CaseRecord, table: WearTable) -> WearInput:
     return WearInput(
         law=table.law,
         coefficient=coefficient,
-        pressure_exponent=table.pressure_exponent or 1.0,
-        hardness=table.hardness_MPa or 1.0,
-        reference_speed=table.reference_speed_mm_per_s or 1.0,
-        speed_exponent=table.speed_exponent or 0.0,
-        friction=table.friction_coefficient or 0.0,
+        constants={key: getattr(table, key) for key in constants},
         low=1.0 / factor,
         high=factor,
         band=f"factor {factor:g} to either side",
@@ -160,7 +157,7 @@ def _condition(case: CaseRecord, table: WearTable, name: str) -> WearInput:
         f"specific wear rate {typical:g} mm2/N, {condition.low:g} to {condition.high:g} "
         f"(wear condition {name!r})"
     )
-    return WearInput("archard", typical, 1.0, 1.0, 1.0, 0.0, low, high, band)
+    return WearInput("archard", typical, {}, low, high, band)
 
 
 def fatigue_input(case: CaseRecord, table: FatigueTable | None) -> FatigueInput | None:

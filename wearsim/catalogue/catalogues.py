@@ -149,7 +149,7 @@ class WearLawEntry:
     name: str  # as in the table
     kind: str  # `law`, of which a case has one, `factor`, of which it may have several, or `told`: no wear
     formula: str  # in plain text; I is the depth of one cycle
-    keys: tuple[str, ...]  # keys that it needs, those of laws and factors in [wear]
+    keys: tuple[str, ...]  # keys that it needs, the coefficient of a law first; of laws and factors in [wear]
     valid: str  # range in which it holds
     source: str  # where it comes from
     not_for: str  # what it must not be used for

@@ -19,28 +19,32 @@ from wearsim.errors import CaseError, Fault
 LARGEST_PITCH = 76.2
 """Of the chains that the ANSI rating knows, no. 240 [mm]."""
 
-PLATES, IMPACT, GALLING = "plate fatigue", "roller impact", "galling speed"
-"""Names of findings about what ends a chain but wear."""
 
-_SAFETY = "safety against breaking"
+@dataclass(frozen=True)
+class Rating:
+    """A rule of the handbooks."""
 
-RULES = (
-    PLATES,
-    IMPACT,
-    "corrected power",
-    "joint pressure",
-    "recommended speed",
-    "greatest speed",
-    _SAFETY,
-    GALLING,
-)
-"""Names of the findings in the order of `assess`."""
+    name: str  # of its findings: what is compared
+    rated_hours: bool = False  # whether its limit is for 15 000 h
+    of_load: bool = False  # whether it says how much load a chain carries
+    advice: bool = False  # whether a drive may run outside of it
+    end: str = ""  # how a chain ends by it; empty where that is not known
 
-RATED_FOR_HOURS = RULES[:3]
-"""Those of them whose limit is for 15 000 h."""
 
-_CAPACITY = RULES[:4]
-"""Those of them that say how much load a chain carries."""
+_PLATES = Rating("plate fatigue", rated_hours=True, of_load=True, end="link plate fatigue")
+_IMPACT = Rating("roller impact", rated_hours=True, of_load=True, end="roller and bush impact")
+_CORRECTED_POWER = Rating("corrected power", rated_hours=True, of_load=True)
+_PRESSURE = Rating("joint pressure", of_load=True)
+_SPEEDS = Rating("recommended speed", advice=True), Rating("greatest speed")
+_SAFETY = Rating("safety against breaking")
+_GALLING = Rating("galling speed", end="galling of pin and bush")
+
+RATINGS = {
+    one.name: one for one in (_PLATES, _IMPACT, _CORRECTED_POWER, _PRESSURE, *_SPEEDS, _SAFETY, _GALLING)
+}
+"""The one list of ratings by the names of their findings, in the order of `assess`."""
+
+_LIMIT_OF_ITS_OWN = Rating("elongation at the end", advice=True)
 
 LEAST_SAFETY = 7.0
 """Tensile strength over tension of the tight span, without shocks (iwis: 7; Renold: 8)."""
@@ -144,12 +148,8 @@ def overloading(ratings: Sequence[RatingFinding]) -> tuple[RatingFinding, ...]:
     >>> [finding.name for finding in overloading([pressure])]
     ['joint pressure']
     """
-    outside = tuple(
-        finding
-        for finding in ratings
-        if not finding.ok and finding.name in RULES and finding.name != "recommended speed"
-    )
-    judged = any(finding.name in _CAPACITY and not finding.note for finding in ratings)
+    outside = tuple(finding for finding in ratings if not finding.ok and not _rating(finding).advice)
+    judged = any(_rating(finding).of_load and not finding.note for finding in ratings)
     return () if judged and all(finding.note for finding in outside) else outside
 
 
@@ -166,9 +166,18 @@ def deciding(ratings: Sequence[RatingFinding]) -> tuple[RatingFinding, ...]:
     >>> [finding.name for finding in deciding([plates, pressure])]
     ['plate fatigue']
     """
-    found = tuple(one for one in ratings if one.name in RULES and one.name != "recommended speed")
-    judged = any(one.name in _CAPACITY and not one.note for one in found)
+    found = tuple(one for one in ratings if not _rating(one).advice)
+    judged = any(_rating(one).of_load and not one.note for one in found)
     return tuple(one for one in found if not (judged and one.note))
+
+
+def _rating(finding: RatingFinding) -> Rating:
+    return RATINGS.get(finding.name, _LIMIT_OF_ITS_OWN)
+
+
+def rated_for_hours(findings: Sequence[RatingFinding]) -> list[RatingFinding]:
+    """Return the findings whose limit is for 15 000 h."""
+    return [one for one in findings if _rating(one).rated_hours]
 
 
 def elongation_limit(teeth: int, adjustable: bool = True) -> float:
@@ -255,9 +264,9 @@ def _power_findings(drive: RatedDrive, service_factor: float) -> list[RatingFind
     corrected = corrected_power(drive.power, service_factor, drive.teeth)
     iso = "ISO 10823, f1 f2; rating of 19 teeth by ANSI B29.1"
     return [
-        RatingFinding(PLATES, required, plates, "kW", "ANSI B29.1, H1", note),
-        RatingFinding(IMPACT, required, impact, "kW", "ANSI B29.1, H2", note, hours=hours),
-        RatingFinding("corrected power", corrected, several * reference, "kW", iso, note),
+        RatingFinding(_PLATES.name, required, plates, "kW", "ANSI B29.1, H1", note),
+        RatingFinding(_IMPACT.name, required, impact, "kW", "ANSI B29.1, H2", note, hours=hours),
+        RatingFinding(_CORRECTED_POWER.name, corrected, several * reference, "kW", iso, note),
     ]
 
 
@@ -267,7 +276,7 @@ def _pressure_findings(drive: RatedDrive, application: float) -> list[RatingFind
         return []
     found = joint_pressure(drive.pull, drive.bearing_area, drive.strands, application)
     note = "" if drive.series == _GOST else "indicative, the table is for GOST 13568 chains"
-    return [RatingFinding("joint pressure", found, allowed, "MPa", "GOST practice (Dunaev)", note)]
+    return [RatingFinding(_PRESSURE.name, found, allowed, "MPa", "GOST practice (Dunaev)", note)]
 
 
 def _speed_findings(drive: RatedDrive) -> list[RatingFinding]:
@@ -275,10 +284,9 @@ def _speed_findings(drive: RatedDrive) -> list[RatingFinding]:
     if limits is None:
         return []
     note = "" if drive.series == _GOST else "indicative, the table is for GOST 13568 chains"
-    names = ("recommended speed", "greatest speed")
     return [
-        RatingFinding(name, drive.speed, limit, "rpm", "GOST practice", note)
-        for name, limit in zip(names, limits, strict=True)
+        RatingFinding(rating.name, drive.speed, limit, "rpm", "GOST practice", note)
+        for rating, limit in zip(_SPEEDS, limits, strict=True)
     ]
 
 
@@ -291,10 +299,10 @@ def _tensile_findings(drive: RatedDrive, shocks: float) -> list[RatingFinding]:
     if asked is None:
         safety = drive.tensile / (drive.pull + drive.own_tension)
         rule = "iwis, fatigue limit 15 to 20 % of the tensile strength"
-        return [RatingFinding(_SAFETY, safety, LEAST_SAFETY, "", rule, at_least=True)]
+        return [RatingFinding(_SAFETY.name, safety, LEAST_SAFETY, "", rule, at_least=True)]
     safety = drive.tensile / (shocks * drive.pull + drive.own_tension)
     rule = "GOST practice (Chernavsky), by pitch and speed"
-    return [RatingFinding(_SAFETY, safety, asked, "", rule, at_least=True)]
+    return [RatingFinding(_SAFETY.name, safety, asked, "", rule, at_least=True)]
 
 
 def _galling_findings(drive: RatedDrive) -> list[RatingFinding]:
@@ -303,7 +311,7 @@ def _galling_findings(drive: RatedDrive) -> list[RatingFinding]:
     tension = (drive.pull + drive.own_tension) / strand_factor(drive.strands)
     limit = galling_speed(drive.pitch, drive.teeth, tension)
     rule = "American Chain Association; Shigley, chapter 17"
-    return [RatingFinding(GALLING, drive.speed, limit, "rpm", rule, rating_note(drive.series))]
+    return [RatingFinding(_GALLING.name, drive.speed, limit, "rpm", rule, rating_note(drive.series))]
 
 
 def rating_warnings(findings: Sequence[RatingFinding]) -> list[str]:
@@ -314,7 +322,7 @@ def rating_warnings(findings: Sequence[RatingFinding]) -> list[str]:
     return [
         warning(finding)
         for finding in findings
-        if not finding.ok and (finding.name, finding.limit) != (_SAFETY, LEAST_SAFETY)
+        if not finding.ok and (finding.name, finding.limit) != (_SAFETY.name, LEAST_SAFETY)
     ]
 
 

@@ -1,6 +1,7 @@
 """``wearsim schema``: what an input file may hold, for editors and programs."""
 
 import json
+from typing import Any
 
 import click
 
@@ -23,9 +24,7 @@ def schema(of_result: bool, command: str | None) -> None:
     if of_result and command:
         raise click.UsageError("give --result or --of, not both")
     if of_result:
-        from importlib.resources import files
-
-        click.echo(files("wearsim").joinpath("result.schema.json").read_text("utf-8").rstrip())
+        click.echo(json.dumps(result_schema(), indent=2))
         return
     from wearsim.command.registry import OTHER_FILES, tables_of
     from wearsim.input.schema import CaseTablesOrDrive
@@ -39,3 +38,15 @@ def schema(of_result: bool, command: str | None) -> None:
         "title": f"wearsim {command or 'case'}",
     }
     click.echo(json.dumps(content, indent=2))
+
+
+def result_schema() -> dict[str, Any]:
+    """JSON Schema of a result, with the keys of all limits that may end a life."""
+    from importlib.resources import files
+
+    from wearsim.contact.stop_limits import LIMITS
+
+    found: dict[str, Any] = json.loads(files("wearsim").joinpath("result.schema.json").read_text("utf-8"))
+    stop = found["$defs"]["life"]["properties"]["stop"]
+    stop["enum"] = [*LIMITS, *stop["enum"]]
+    return found

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from wearsim.contact.stop_limits import CHAIN_LIMITS
 from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document, is_whole_drive
@@ -146,9 +147,7 @@ _BELONGS_TO = {
     "drive": "wrap",
     "joint": "wrap",
     "sprocket.role": "wrap",
-    "stop.elongation_percent": "wrap",
-    "stop.over_pins_change_mm": "wrap",
-    "stop.min_slack_tension_N": "wrap",
+    **{f"stop.{row.key}": row.kind for row in CHAIN_LIMITS if row.kind},
     "wear.roller_wear_ratio": "wrap",
     "chain.pin_diameter_mm": "wrap",
     "chain.bush_diameter_mm": "wrap",

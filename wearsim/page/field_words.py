@@ -1,5 +1,6 @@
 """Plain words for keys and for the words that a key takes."""
 
+from wearsim.contact.stop_limits import LIMITS
 from wearsim.report.key_words import key_words
 
 _LABELS = {
@@ -10,7 +11,6 @@ _LABELS = {
     "at_km": "Relubricated at these km",
     "back_flank": "Back flank",
     "band_factor": "Uncertainty factor of the wear coefficient",
-    "case_depth_mm": "Case depth",
     "coefficient": "Coefficient of the law",
     "completeness": "Fraction of the age removed by relubrication",
     "condition": "Material and lubrication",
@@ -21,7 +21,6 @@ _LABELS = {
     "contact_start_mm": "Start of contact, at the tip",
     "cycles_exponent": "Exponent of the cycles",
     "core_factor": "Factor on wear below the case",
-    "critical_depth_mm": "Allowable wear depth",
     "designation": "Chain",
     "displaced": "Seat offset (GOST 591)",
     "dry_factor": "Factor on wear without lubricant",
@@ -30,7 +29,6 @@ _LABELS = {
     "dxf_file": "Drawing (DXF)",
     "dxf_join_tolerance_mm": "Tolerance for joining lines, mm",
     "dxf_layer": "Layer of the drawing",
-    "elongation_percent": "Elongation of the chain",
     "engaged_every": "A roller in every n-th gap",
     "fades_over_hours": "Then fades over, hours",
     "fades_over_km": "Then fades over, km",
@@ -62,11 +60,7 @@ _LABELS = {
     "mass_kg_per_m": "Mass per metre",
     "mate_teeth": "Teeth of the other sprocket",
     "method": "Time stepping",
-    "min_slack_tension_N": "Smallest slack tension",
-    "min_tip_land_mm": "Smallest width of the tooth tip",
-    "min_tooth_thickness_mm": "Smallest tooth thickness",
     "nodes": "Points along the flank",
-    "over_pins_change_mm": "Decrease of the measurement over pins",
     "phases": "Phases per pitch",
     "points_file": "File of flank points",
     "poissons_ratio": "Poisson's ratio",
@@ -85,6 +79,7 @@ _LABELS = {
     "turn_sprocket": "Turn the worn sprocket over",
     "when_rate_exceeds": "Relubricated when wear exceeds, times",
     "youngs_modulus_MPa": "Young's modulus",
+    **{row.key: row.label for row in LIMITS.values()},
 }
 """Where the key itself is no plain word."""
 

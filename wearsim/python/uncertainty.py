@@ -39,10 +39,9 @@ class UncertaintyResult(DrawnAnswer):
 
     @property
     def headline(self) -> str:
-        """The three percentiles."""
+        """The percentiles in one line."""
         shown = (
-            f"P{100 * one.share:.0f} {'' if one.known else '> '}{grouped(one.hours)} h"
-            for one in self.answer.percentiles
+            f"{one.name} {'' if one.known else '> '}{grouped(one.hours)} h" for one in self.answer.percentiles
         )
         return ", ".join(shown)
 
@@ -58,10 +57,10 @@ class UncertaintyResult(DrawnAnswer):
 
     @property
     def percentiles(self) -> pd.DataFrame:
-        """P10, P50 and P90 with the ends of their intervals; ``known`` is False of a bound."""
+        """Percentiles with the ends of their intervals; ``known`` is False of a bound."""
         return table_of(
             {
-                "percentile": f"P{100 * one.share:.0f}",
+                "percentile": one.name,
                 "life_hours": one.hours,
                 "life_hours_low": one.low,
                 "life_hours_high": one.high,

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.power_rating import RATED_HOURS
-from wearsim.chain.selection import RATED_FOR_HOURS, RatingFinding
+from wearsim.chain.selection import RatingFinding, rated_for_hours
+from wearsim.contact.stop_limits import LIMITS as STOP_LIMITS
 from wearsim.quantities import DAYS_OF_YEAR, grouped
 from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, LimitState, LowerBound, WearResult
@@ -50,7 +51,7 @@ def headline(result: WearResult) -> str:
 
 def beyond_ratings(overloaded: Sequence[RatingFinding]) -> str:
     """Return in words which ratings for 15 000 h a drive is beyond; empty where it is within."""
-    beyond = [used_text(finding) for finding in overloaded if finding.name in RATED_FOR_HOURS]
+    beyond = [used_text(finding) for finding in rated_for_hours(overloaded)]
     return f"beyond its rating for {grouped(RATED_HOURS)} h: {', '.join(beyond)}" if beyond else ""
 
 
@@ -75,10 +76,9 @@ def limit_text(name: str, value: float) -> str:
 
 def limit_name(name: str) -> tuple[str, str]:
     """Return the key of a limit as words and its unit."""
-    if name == JUMPING:
-        return "slack tension needed not to jump", "N"
     words, _, unit = name.rpartition("_")
-    return words.replace("_", " "), {"percent": "%", "hours": "h"}.get(unit, unit)
+    row = STOP_LIMITS.get(name)
+    return (row and row.words) or words.replace("_", " "), {"percent": "%", "hours": "h"}.get(unit, unit)
 
 
 def limit_state(state: LimitState, inputs: Mapping[str, Any]) -> str:
@@ -319,20 +319,9 @@ def ending(result: WearResult) -> str:
     """Return in words what ended a life, or what is worn off where nothing did."""
     if not isinstance(result.life, Life):
         return f"{result.max_depth:.3g} mm is worn off by then"
-    return {
-        "critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off",
-        "wheel_critical_depth_mm": f"until {_depth(result.stop_value)} mm is worn off the wheel",
-        "min_tip_land_mm": f"until the tip land is down to {result.stop_value:.3g} mm",
-        "case_depth_mm": f"until the hardened layer of {_depth(result.stop_value)} mm is gone",
-        "min_tooth_thickness_mm": f"until a tooth is {result.stop_value:.3g} mm thick",
-        "over_pins_change_mm": (f"until the measurement over pins is {result.stop_value:.3g} mm less"),
-        "min_slack_tension_N": (
-            f"until the chain needs a slack tension of {result.stop_value:.3g} N on the worn teeth"
-            if "min_slack_tension_N" in result.inputs["stop"]
-            else "until the chain jumps on the worn teeth"
-        ),
-        "elongation_percent": f"until the chain has grown by {result.stop_value:.3g} %",
-    }[result.stop]
+    row, value = STOP_LIMITS[result.stop], result.stop_value
+    words = row.ending if result.stop in result.inputs["stop"] or not row.ending_unset else row.ending_unset
+    return words.format(value=value, depth=_depth(value))
 
 
 def _life(result: WearResult) -> str:

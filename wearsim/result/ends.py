@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wearsim.chain.power_rating import IMPACT_BAND, NO_MORE_HOURS, RATED_HOURS
-from wearsim.chain.selection import GALLING, IMPACT, PLATES, RatingFinding
+from wearsim.chain.selection import RATINGS, Rating, RatingFinding
 from wearsim.quantities import grouped
 from wearsim.result.lives import Life, LowerBound, hours
 
@@ -58,32 +58,23 @@ def wear_end(part: str, mode: str, life: Life | LowerBound, band: Lives | None) 
 def rating_ends(ratings: Iterable[RatingFinding]) -> list[PartEnd]:
     """Return how plates, rollers and pins of a chain stand to their ratings, and when rollers fail."""
     found = {finding.name: finding for finding in ratings}
-    ends = []
-    if PLATES in found:
-        ends.append(_verdict_only("link plate fatigue", _verdict(found[PLATES], True)))
-    if IMPACT in found:
-        ends.append(_impact_end(found[IMPACT]))
-    if GALLING in found:
-        ends.append(_verdict_only("galling of pin and bush", _verdict(found[GALLING], False)))
-    return ends
+    return [
+        _rating_end(rating, found[name]) for name, rating in RATINGS.items() if rating.end and name in found
+    ]
 
 
-def _verdict_only(mode: str, verdict: str) -> PartEnd:
-    return PartEnd(CHAIN, mode, None, reached=False, verdict=verdict)
+def _rating_end(rating: Rating, finding: RatingFinding) -> PartEnd:
+    """Return how a chain stands to a rating, and when it ends by it where a slope is published."""
+    mode, verdict, end = rating.end, _verdict(rating, finding), finding.hours
+    if end is None or end > NO_MORE_HOURS:
+        return PartEnd(CHAIN, mode, None if end is None else NO_MORE_HOURS, reached=False, verdict=verdict)
+    return PartEnd(CHAIN, mode, end, end / IMPACT_BAND, end * IMPACT_BAND, verdict=verdict)
 
 
-def _impact_end(finding: RatingFinding) -> PartEnd:
-    mode, verdict = "roller and bush impact", _verdict(finding, True)
-    if finding.hours is None or finding.hours > NO_MORE_HOURS:
-        bound = None if finding.hours is None else NO_MORE_HOURS
-        return PartEnd(CHAIN, mode, bound, reached=False, verdict=verdict)
-    ends = finding.hours / IMPACT_BAND, finding.hours * IMPACT_BAND
-    return PartEnd(CHAIN, mode, finding.hours, *ends, verdict=verdict)
-
-
-def _verdict(finding: RatingFinding, rated: bool) -> str:
+def _verdict(rating: Rating, finding: RatingFinding) -> str:
     side = "within" if finding.ok else "BEYOND"
-    what = f"rating for {grouped(RATED_HOURS)} h" if rated else "limit of speed"
+    limit = "limit of speed" if finding.unit == "rpm" else "limit"
+    what = f"rating for {grouped(RATED_HOURS)} h" if rating.rated_hours else limit
     note = ", indicative" if finding.note else ""
     return f"{side} its {what}{note}: {grouped(100.0 * finding.used)} % used"
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from wearsim.case.model import Case, WearBand, log_deviation
+from wearsim.catalogue.catalogues import wear_laws
 from wearsim.drive.drive_case import chain_case, with_one_wear
 from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, Fault
@@ -91,8 +92,7 @@ def load_scattered(
 
 def coefficient_key(case: Case) -> str:
     """Return the key of a case's wear coefficient."""
-    name = "specific_wear_rate_mm2_per_N" if case.wear.law == "archard" else "coefficient"
-    return f"wear.{name}"
+    return f"wear.{wear_laws()[case.wear.law].keys[0]}"
 
 
 def _coefficients(case: Case) -> dict[str, tuple[float, WearBand]]:

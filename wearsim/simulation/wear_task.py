@@ -1,6 +1,6 @@
 """What a case asks of the wear engine: its law, its limits, and a flank to wear."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,14 +17,11 @@ from wearsim.simulation.lubricant import lubricant_clock, sliding_per_cycle
 from wearsim.wear.advance import run_advance
 from wearsim.wear.cycles_power import CyclesPower
 from wearsim.wear.law import (
+    LAWS,
     RelativeLoad,
     WearLaw,
-    archard,
-    drozdov,
     equivalent_factor,
     mean_pressure_factor,
-    power,
-    t_gamma,
     with_pressure_speed_limit,
 )
 from wearsim.wear.lubricant_clock import LubricatedClock
@@ -87,7 +84,9 @@ def _check_t_gamma(case: Case, contact: FlankContact) -> None:
     """Raise where the law by T-gamma does not tell how the shape of the new flank goes on."""
     touch = contact.new_engagement()
     pressure = peak_pressure(touch.load_per_width, np.maximum(touch.relative_curvature, 0.0), contact.modulus)
-    energy = t_gamma_energy(mean_pressure_factor(1.0) * pressure, touch.slip, case.wear.friction)
+    energy = t_gamma_energy(
+        mean_pressure_factor(1.0) * pressure, touch.slip, case.wear.constants["friction_coefficient"]
+    )
     if on_level_branch(energy[touch.load_per_width > 0.0]):
         message = (
             f"T-gamma over the contact area must lie below {FIRST:g} or above {SECOND:g} N/mm2 all along "
@@ -119,15 +118,8 @@ def _law(case: Case) -> WearLaw:
 
 def wear_law(wear: WearInput, coefficient: float) -> WearLaw:
     """Return the law of a case with a coefficient of one's own."""
-    laws: dict[str, Callable[[], WearLaw]] = {
-        "archard": lambda: archard(coefficient),
-        "power": lambda: power(coefficient, wear.pressure_exponent),
-        "drozdov": lambda: drozdov(
-            coefficient, wear.pressure_exponent, wear.hardness, wear.reference_speed, wear.speed_exponent
-        ),
-        "t_gamma": lambda: t_gamma(coefficient, wear.friction),
-    }
-    law = with_pressure_speed_limit(laws[wear.law](), wear.pv_limit, wear.severe_factor)
+    law = LAWS[wear.law](coefficient, *wear.constants.values())
+    law = with_pressure_speed_limit(law, wear.pv_limit, wear.severe_factor)
     return replace(law, case_depth=wear.case_depth, core_factor=wear.core_factor)
 
 

@@ -5,7 +5,7 @@ width c_m 2a times the slip ratio in a travelling contact, the given path in a l
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -206,6 +206,10 @@ def t_gamma(coefficient: float, friction: float) -> WearLaw:
     """
     mild = archard(coefficient * t_gamma_coefficient(friction))
     return replace(mild, severity=Severity(BY_T_GAMMA, math.inf, friction))
+
+
+LAWS: dict[str, Callable[..., WearLaw]] = {law.__name__: law for law in (archard, power, drozdov, t_gamma)}
+"""Constructors of the laws of `wear_laws.csv`; their arguments are the keys of that row, in its order."""
 
 
 def with_pressure_speed_limit(law: WearLaw, pv_limit: float, severe_factor: float) -> WearLaw:

@@ -2,11 +2,13 @@
 
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
+from pydantic import BeforeValidator, Field, WithJsonSchema, create_model, field_validator
 
 from wearsim.catalogue.catalogues import materials, wear_conditions, wear_laws
+from wearsim.contact.stop_limits import CHAIN_LIMITS, LimitKey
 from wearsim.input.schema.table import Table, known, others_of
 from wearsim.input.units import Number, Positive, PositiveNumber
+from wearsim.quantities import quantities
 
 _KEYS = {name: entry.keys for name, entry in wear_laws().items() if entry.kind == "law"}
 _TOGETHER = [entry.keys for entry in wear_laws().values() if entry.kind == "factor" and len(entry.keys) > 1]
@@ -122,16 +124,25 @@ Depth = Annotated[Positive, Field(ge=1e-9)]
 """Worn off: far below an atom is a slip of the pen."""
 
 
-class StopTable(Table):
-    """Limits; the first one met ends the life."""
+def _limit(row: LimitKey) -> Any:
+    kind = Positive if quantities()[row.key].unit else PositiveNumber
+    return Annotated[kind, Field(ge=row.least, le=row.most)] | None, None
 
-    critical_depth_mm: Depth | None = None
-    min_tip_land_mm: Positive | None = None
-    case_depth_mm: Depth | None = None
-    min_tooth_thickness_mm: Positive | None = None
-    over_pins_change_mm: Positive | None = None
-    min_slack_tension_N: Positive | None = None
-    elongation_percent: Annotated[PositiveNumber, Field(le=10.0)] | None = None
+
+if TYPE_CHECKING:
+
+    class StopTable(Table):
+        """Limits; the first one met ends the life."""
+
+        def __getattr__(self, key: str) -> float | None: ...
+else:
+    StopTable = create_model(
+        "StopTable",
+        __base__=Table,
+        __doc__="Limits; the first one met ends the life.",
+        __module__=__name__,
+        **{row.key: _limit(row) for row in CHAIN_LIMITS},
+    )
 
 
 class RunTable(Table):

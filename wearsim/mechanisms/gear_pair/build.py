@@ -88,7 +88,6 @@ def read(document: Document) -> Case:
         turns_per_cycle=1,
         wear=wear,
         critical_depth=tables.stop.critical_depth_mm,
-        min_tip_land=0.0,
         more_limits={"wheel_critical_depth_mm": limit},
         run=run,
         fatigue=fatigue,

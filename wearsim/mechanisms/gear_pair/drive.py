@@ -9,7 +9,7 @@ import numpy as np
 from wearsim.case.model import Case, Drive, FatigueInput
 from wearsim.contact.engagement import Engagement, FlankContact, Mechanism
 from wearsim.contact.hertz import peak_pressure
-from wearsim.contact.stop_limits import StopLimit, rising
+from wearsim.contact.stop_limits import StopLimit, stop_limit
 from wearsim.fatigue.contact_fatigue import fatigue_life
 from wearsim.fatigue.endurance import EnduredHours, cycles_per_hour
 from wearsim.geometry.gear.mesh import ToothPair
@@ -80,7 +80,7 @@ class GearDrive(Drive):
     def stop_limits(self, case: Case, contact: FlankContact) -> tuple[StopLimit, ...]:
         """Return the limits of the pinion's flank, and that of the wheel."""
         ratio, key = contact.columns[MATE_DEPTH], "wheel_critical_depth_mm"
-        wheel = rising(key, case.more_limits[key], lambda x, y, depth: float((ratio * depth).max()))
+        wheel = stop_limit(key, case.more_limits[key], lambda x, y, depth: float((ratio * depth).max()))
         return (*self.tooth_limits(case), wheel)
 
     def fatigue_lives(

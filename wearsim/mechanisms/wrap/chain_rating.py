@@ -7,7 +7,7 @@ from dataclasses import replace
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings, polygon_effect
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.power_rating import hours_over_duty
-from wearsim.chain.selection import RULES, RatedDrive, RatingFinding, assess, elongation_limit
+from wearsim.chain.selection import RATINGS, RatedDrive, RatingFinding, assess, elongation_limit
 
 RatedLoad = tuple[str, RatedDrive]
 """A load in words, empty where it is the only one, and what the ratings need to know under it."""
@@ -51,7 +51,7 @@ def with_hours_over_duty(
 def rules_without_limit(by_load: Sequence[Sequence[RatingFinding]]) -> tuple[str, ...]:
     """Return the rules that say nothing about some load: a number or a row is missing."""
     found = [{finding.name for finding in findings} for findings in by_load]
-    return tuple(name for name in RULES if not all(name in names for names in found))
+    return tuple(name for name in RATINGS if not all(name in names for names in found))
 
 
 def elongation_finding(all_teeth: Sequence[int], limit: float) -> RatingFinding:

@@ -18,7 +18,7 @@ from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.practice_drive import MOST_STRANDS, PracticeDrive
 from wearsim.chain.selection import RatedDrive, RatingFinding, overload_fault
 from wearsim.chain.service_conditions import LUBRICATIONS
-from wearsim.contact.stop_limits import StopLimit, rising
+from wearsim.contact.stop_limits import StopLimit, stop_limit
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.blank import blank_area, gap_space
 from wearsim.geometry.gap import Gap
@@ -357,10 +357,10 @@ class WrapDrive(Drive):
         if limit is None:
             return found
         new = over_pins(path, self.outline.x.copy(), self.outline.y.copy(), self.gaps)
-        return (
-            *found,
-            rising("over_pins_change_mm", limit, lambda x, y, depth: new - over_pins(path, x, y, self.gaps)),
+        change = stop_limit(
+            "over_pins_change_mm", limit, lambda x, y, depth: new - over_pins(path, x, y, self.gaps)
         )
+        return (*found, change)
 
     def check(self, case: Case) -> None:
         """Raise where the chain jumps on new teeth, at no or at its limit of elongation.

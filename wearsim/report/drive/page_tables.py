@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from wearsim.catalogue.catalogues import wear_laws
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.drive.drive_case import DriveCase, DriveSprocket
@@ -196,7 +197,7 @@ def lubrication_rows(found: DriveLife) -> list[tuple[str, str]]:
     states: dict[str, list[str]] = {}
     for one in found.drive.sprockets:
         table, wear = one.case.inputs["wear"], one.case.wear
-        unit = " mm2/N" if wear.law == "archard" else ""
+        unit = " mm2/N" if wear_laws()[wear.law].keys[0].endswith("_mm2_per_N") else ""
         condition = table.get("condition")
         name = f"'{condition}', " if condition else ""
         text = f"{name}{wear.law} {wear.coefficient:.3g}{unit}, band {wear.low:.3g} to {wear.high:.3g} times"

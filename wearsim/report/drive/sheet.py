@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.chain.selection import RATED_FOR_HOURS, deciding
+from wearsim.chain.selection import deciding, rated_for_hours
 from wearsim.drive.drive_result import CHAIN, DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan, planned_events
 from wearsim.drive.plan import Stop
@@ -65,7 +65,7 @@ def against_hours(found: DriveLife, only_worst: bool = False) -> str:
     """Return in words which ratings may end the chain before its hours; empty where it is within them."""
     overloaded = list(found.overloaded)
     if only_worst:
-        rated = [finding for finding in overloaded if finding.name in RATED_FOR_HOURS]
+        rated = rated_for_hours(overloaded)
         overloaded = [max(rated, key=lambda finding: finding.used)] if rated else []
     return beyond_ratings(overloaded)
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.case.model import Case
+from wearsim.contact.stop_limits import LIMITS
 from wearsim.quantities import grouped
 from wearsim.report.answer import JUMPING, limit_name, limit_state, slack_needed
 from wearsim.result import WearResult
@@ -51,10 +52,5 @@ def margins(result: WearResult, case: Case) -> list[Margin]:
 
 def _when_new(name: str, case: Case) -> float:
     """What the quantity of a limit is on new teeth; 0 of all that grow."""
-    drive = case.drive
-    if drive.has_tooth:
-        if name == "min_tip_land_mm":
-            return drive.tip_land
-        if name == "min_tooth_thickness_mm":
-            return drive.pitch_line_thickness
-    return 0.0
+    row = LIMITS.get(name)
+    return row.new(case.drive) if row and row.new and case.drive.has_tooth else 0.0

@@ -9,7 +9,7 @@ from markupsafe import Markup
 from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.citation import apa
-from wearsim.quantities import grouped
+from wearsim.quantities import grouped, percentile_meaning, percentile_name, percentile_shares
 from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, overload_text
 from wearsim.report.comparison import comparison_cells, differing_limits
 from wearsim.report.figures import comparison_figures, picture
@@ -57,7 +57,7 @@ class DrivePage:
     low: str  # the lives at the ends of the band, and where that comes from
     high: str  # the lives at the ends of the band, and where that comes from
     band: str  # the lives at the ends of the band, and where that comes from
-    percentiles: list[tuple[str, str]]  # names and hours of P10, P50 and P90, where they are known
+    percentiles: list[tuple[str, str]]  # names and hours, where they are known
     findings: list[tuple[str, str]]  # the rest of the answer
     margins: list[Margin]  # of every stop limit
     # rating_head, ratings: the table of what the handbooks allow; without rows where they say
@@ -163,9 +163,11 @@ def _percentiles(result: WearResult, case: Case) -> list[tuple[str, str]]:
         return []
     from wearsim.runner.scaled_percentiles import scaled_percentiles  # takes 0.4 s, for scipy.stats
 
-    found = scaled_percentiles(result, case, (0.1, 0.5, 0.9))
-    names = ("P10: 9 of 10 live longer", "P50: half live longer", "P90: 1 of 10 lives longer")
-    return [(name, f"{grouped(value)} h") for name, value in zip(names, found, strict=False)]
+    shares = percentile_shares()
+    return [
+        (f"{percentile_name(share)}: {percentile_meaning(share)}", f"{grouped(value)} h")
+        for share, value in zip(shares, scaled_percentiles(result, case, shares), strict=False)
+    ]
 
 
 def _charts(result: WearResult, case: Case) -> list[Chart]:

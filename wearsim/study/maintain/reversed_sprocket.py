@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from wearsim.case.model import Case
 from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear
-from wearsim.contact.stop_limits import StopLimit, rising
+from wearsim.contact.stop_limits import LIMITS, StopLimit, deepest, stop_limit
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.result import Life, LowerBound, WearResult, life_of
@@ -29,7 +29,7 @@ def reversed_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, flo
     start = StartState(depth[:, ::-1].copy(), wear, chain)
     stop_limits = _stop_limits(case, reversed_, _working_half(contact, depth))
     profile = reversed_.profile
-    margins = [stop_limit.margin(*profile.receded(d), d) for stop_limit in stop_limits for d in start.depth]
+    margins = [one.margin(*profile.receded(d), d) for one in stop_limits for d in start.depth]
     if min(margins) <= 0.0:
         return Life(0.0, 0.0), 0.0
     run, error = advance_resting(
@@ -53,12 +53,9 @@ def _working_half(contact: WrapContact, depth: Vector) -> NDArray[np.bool_]:
 
 def _stop_limits(case: Case, contact: WrapContact, half: NDArray[np.bool_]) -> tuple[StopLimit, ...]:
     """The limits of the case, those on the depth for the half that works."""
-    found = []
-    for stop_limit in wrap_of(case).gap_limits(case, contact.mechanism.path):
-        of_half = stop_limit.name in ("critical_depth_mm", "case_depth_mm")
-        found.append(
-            rising(stop_limit.name, stop_limit.limit, lambda x, y, depth: float(depth[half].max()))
-            if of_half
-            else stop_limit
-        )
-    return tuple(found)
+    return tuple(
+        stop_limit(one.name, one.limit, lambda x, y, depth: float(depth[half].max()))
+        if LIMITS[one.name].worn is deepest
+        else one
+        for one in wrap_of(case).gap_limits(case, contact.mechanism.path)
+    )

@@ -110,7 +110,9 @@ def _cross_checked(answer: "UncertaintyAnswer") -> "UncertaintyAnswer":
 
 
 def _missed(answer: "UncertaintyAnswer", require_hours: float | None) -> int:
-    p10 = answer.percentiles[0]
+    from wearsim.study.uncertainty.percentiles import B10, percentile
+
+    p10 = percentile(answer.hours, answer.reached, B10)
     if require_hours is None or p10.hours >= (1.0 - _ROUNDING) * require_hours:
         return 0
     warn(f"{answer.study.scattered.case.name}: P10 {p10.hours:.6g} h is below {require_hours:g} h")

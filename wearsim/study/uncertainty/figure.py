@@ -1,5 +1,6 @@
 """Pictures of the uncertainty of a life: how lives are distributed, and whether that has settled."""
 
+import itertools
 import math
 
 import numpy as np
@@ -11,6 +12,7 @@ from wearsim.report.figures import number_ticks
 from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
 
 _TICKS = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
+_COLOURS = ("tab:red", "black", "tab:blue", "tab:orange", "tab:green", "tab:purple")
 
 
 def uncertainty_figures(answer: UncertaintyAnswer) -> dict[str, Figure]:
@@ -30,6 +32,7 @@ def _lives(answer: UncertaintyAnswer) -> Figure:
         law = stats.lognorm if fit.name == "lognormal" else stats.weibull_min
         at = stats.norm.ppf(law(fit.shape, scale=fit.scale).cdf(grid))
         panel.plot(grid, at, color=colour, label=f"{fit.name.capitalize()} fit")
+    names = ", ".join(found.name for found in answer.percentiles)
     for found in answer.percentiles:
         if found.known:
             place = float(stats.norm.ppf(found.share))
@@ -43,7 +46,7 @@ def _lives(answer: UncertaintyAnswer) -> Figure:
                 color="tab:red",
                 capsize=4,
                 zorder=3,
-                label="P10, P50, P90 and their intervals" if found.share == 0.5 else None,
+                label=f"{names} and their intervals" if found.share == 0.5 else None,
             )
     if lives[0] > 0.0:
         panel.set_xscale("log")
@@ -63,9 +66,8 @@ def _convergence(answer: UncertaintyAnswer) -> Figure:
     figure = Figure(figsize=(7.0, 4.4), layout="constrained")
     panel = figure.subplots()
     table = answer.convergence
-    for found, colour in zip(answer.percentiles, ("tab:red", "black", "tab:blue"), strict=True):
-        name = f"p{100 * found.share:.0f}"
-        panel.plot(table["samples"], table[f"{name}_hours"], "-o", color=colour, label=name.upper())
+    for found, colour in zip(answer.percentiles, itertools.cycle(_COLOURS), strict=False):
+        panel.plot(table["samples"], table[found.column], "-o", color=colour, label=found.name)
         if math.isfinite(found.high):
             panel.axhspan(found.low, found.high, color=colour, alpha=0.12, linewidth=0)
     panel.set_xscale("log", base=2)

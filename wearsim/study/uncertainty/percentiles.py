@@ -8,8 +8,12 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from wearsim.geometry.profile_points import Vector
+from wearsim.quantities import percentile_name
 
 CONFIDENCE = 0.95
+
+B10 = 0.1
+"""Share of the lives that end before the rating life, which is also called P10."""
 
 Flags = NDArray[np.bool_]
 
@@ -18,11 +22,21 @@ Flags = NDArray[np.bool_]
 class Percentile:
     """The hours that a part of all lives does not exceed."""
 
-    share: float  # the part; 0.1 for P10, the life that 90 % reach (also called B10)
+    share: float  # the part; `B10` for the life that 90 % reach
     hours: float  # estimate [h]; a lower bound where it is not known
     low: float  # ends of the interval that holds it with 95 % confidence; inf where not known
     high: float  # ends of the interval that holds it with 95 % confidence; inf where not known
     known: bool  # whether the hours are the percentile, not a bound
+
+    @property
+    def name(self) -> str:
+        """Such as P10."""
+        return percentile_name(self.share)
+
+    @property
+    def column(self) -> str:
+        """Its row in the table of names, such as p10_hours."""
+        return f"{self.name.lower()}_hours"
 
 
 def percentile(lives: Vector, reached: Flags, share: float) -> Percentile:
@@ -73,6 +87,6 @@ def fit_distributions(lives: Vector, reached: Flags) -> list[DistributionFit]:
         frozen = law(shape, scale=scale)
         likelihood = frozen.logpdf(seen / unit).sum() + frozen.logsf(lives[~reached] / unit).sum()
         likelihood -= seen.size * math.log(unit)
-        b10 = unit * float(frozen.ppf(0.1))
+        b10 = unit * float(frozen.ppf(B10))
         found.append(DistributionFit(name, float(shape), unit * float(scale), float(likelihood), b10))
     return sorted(found, key=lambda fit: -fit.log_likelihood)

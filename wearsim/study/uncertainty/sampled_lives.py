@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from wearsim.geometry.profile_points import Vector
+from wearsim.quantities import percentile_shares
 from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.shard import life_columns
 from wearsim.study.uncertainty.cross_check import CrossCheck
@@ -20,7 +21,6 @@ from wearsim.study.uncertainty.percentiles import (
     percentile,
 )
 
-SHARES = (0.1, 0.5, 0.9)
 _MAX_KINDS = 8
 _FEWEST = 16
 """Samples from which the convergence of the percentiles is followed."""
@@ -52,8 +52,12 @@ class UncertaintyAnswer:
 
     @cached_property
     def percentiles(self) -> tuple[Percentile, ...]:
-        """P10, P50 and P90."""
-        return tuple(percentile(self.hours, self.reached, share) for share in SHARES)
+        """The percentiles of all sound samples."""
+        return self._percentiles_of_first(len(self.sound))
+
+    def _percentiles_of_first(self, count: int) -> tuple[Percentile, ...]:
+        hours, reached = self.hours[:count], self.reached[:count]
+        return tuple(percentile(hours, reached, share) for share in percentile_shares())
 
     @property
     def ends_first(self) -> dict[str, float]:
@@ -81,10 +85,10 @@ class UncertaintyAnswer:
         counts = [count >> shift for shift in range(count.bit_length()) if count >> shift >= _FEWEST]
         rows = []
         for some in reversed(counts or [count]):
-            found = [percentile(self.hours[:some], self.reached[:some], q) for q in SHARES]
-            names = [f"p{100 * share:.0f}_hours" for share in SHARES]
-            known = (one.hours if one.known else math.nan for one in found)
-            rows.append({"samples": some} | dict(zip(names, known, strict=True)))
+            found = self._percentiles_of_first(some)
+            rows.append(
+                {"samples": some} | {one.column: one.hours if one.known else math.nan for one in found}
+            )
         return pd.DataFrame(rows)
 
 

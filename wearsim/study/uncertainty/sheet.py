@@ -8,10 +8,10 @@ import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain, save_figures, save_files
-from wearsim.quantities import grouped
+from wearsim.quantities import grouped, percentile_meaning
 from wearsim.study.uncertainty.cross_check import BoundedValue, CrossCheck, CrossFit
 from wearsim.study.uncertainty.model import UncertaintyStudy
-from wearsim.study.uncertainty.percentiles import CONFIDENCE, DistributionFit, Percentile
+from wearsim.study.uncertainty.percentiles import B10, CONFIDENCE, DistributionFit, Percentile
 from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer, uncertainty_warnings
 
 
@@ -19,9 +19,9 @@ def uncertainty_text(answer: UncertaintyAnswer) -> str:
     """Return percentiles, what they rest on, and fits, as text."""
     study = answer.study
     lines = [study.scattered.case.title, ""]
-    for found, text in zip(answer.percentiles, _MEANING, strict=True):
-        name = f"P{100 * found.share:.0f}"
-        lines.append(f"{name:<12} {_hours(found):>12} h    {_interval(found)}    {text}")
+    for found in answer.percentiles:
+        text = f"{percentile_meaning(found.share)}{' (B10)' if found.share == B10 else ''}"
+        lines.append(f"{found.name:<12} {_hours(found):>12} h    {_interval(found)}    {text}")
     lines += ["", f"samples      {len(answer.sound)}, {_METHODS[study.method]}, seed {study.seed}"]
     for fit in answer.fits:
         lines.append(
@@ -42,7 +42,6 @@ def uncertainty_text(answer: UncertaintyAnswer) -> str:
     return "\n".join(lines)
 
 
-_MEANING = ("9 of 10 live longer (B10)", "half live longer", "1 of 10 lives longer")
 _METHODS = {"sobol": "scrambled Sobol' points", "lhs": "Latin hypercube", "random": "independent"}
 _OF_INTERVALS = (
     f"intervals hold the percentile with {100 * CONFIDENCE:.0f} % confidence for independent samples, "
@@ -56,7 +55,7 @@ def uncertainty_json(answer: UncertaintyAnswer) -> dict[str, Any]:
     case = study.scattered.case
     content: dict[str, Any] = {**ANSWER_HEAD, "case": case.name, "title": case.title}
     for found in answer.percentiles:
-        name = f"p{100 * found.share:.0f}_hours"
+        name = found.column
         content[name] = found.hours if found.known else None
         content[f"{name}_low"], content[f"{name}_high"] = found.low, plain(found.high)
         content[f"{name}_at_least"] = None if found.known else found.hours
