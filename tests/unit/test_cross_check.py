@@ -2,12 +2,15 @@
 
 import math
 from dataclasses import replace
+from importlib.util import find_spec
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy import optimize, stats
 
-pytest.importorskip("reliability", reason="reliability is not installed")
+if find_spec("reliability") is None:  # its import changes how pandas prints
+    pytest.skip("reliability is not installed", allow_module_level=True)
 
 from wearsim.study.uncertainty.cross_check import cross_check
 from wearsim.study.uncertainty.percentiles import fit_distributions
@@ -63,6 +66,7 @@ def test_shock_absorbers_give_the_published_maxima():
     assert lognormal.shape.value == pytest.approx(0.530, abs=0.001)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("name", ["weibull", "lognormal"])
 def test_maximum_and_bounds_by_the_likelihood_written_out(name):
     """The smallest extreme value and the normal distribution of ln t, and their curvature."""
@@ -106,6 +110,7 @@ def test_bounds_of_complete_logarithms_are_closed_forms():
     assert found.shape.high == pytest.approx(sigma * math.exp(wider), rel=1e-3)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("part", ["shape", "scale"])
 @pytest.mark.parametrize(("factor", "told"), [(1.009, 0), (1.012, 1)])
 def test_parameters_that_differ_are_told(part, factor, told):
@@ -123,7 +128,8 @@ def test_no_fit_is_no_fault():
 
 
 def test_what_the_library_prints_or_raises_is_a_doubt(monkeypatch):
-    from reliability import Fitters
+    with pd.option_context("display.float_format", None):
+        from reliability import Fitters
 
     original = Fitters.Fit_Weibull_2P.__init__
 

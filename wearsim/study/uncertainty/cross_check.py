@@ -102,8 +102,8 @@ def _parameters(name: str, found: Any) -> CrossFit:
 @contextmanager
 def _kept_to_itself() -> Iterator[io.StringIO]:
     """Catch what reliability prints, and take back what it sets for the whole process."""
-    widths = ("display.width", "display.max_columns", "display.max_rows")
-    kept = [part for name in widths for part in (name, pd.get_option(name))]
+    printing = [f"display.{name}" for name in ("float_format", "max_columns", "max_rows", "width")]
+    kept = [part for name in printing for part in (name, pd.get_option(name))]
     printed = io.StringIO()
     with (
         redirect_stdout(printed),
