@@ -126,7 +126,7 @@ def test_only_the_last_of_several_edits_is_answered(watched, serve):
     settled(page)
     said = page.evaluate("seen")
     assert any(re.search(r"\(\d+ %\)", text) for text in said)
-    assert {text.split("\n")[0] for text in said if "of the present" in text} == {shown_hours(page)}
+    assert {text.split("\n")[0] for text in said if "up to date" in text} == {shown_hours(page)}
 
 
 def test_a_new_drive_is_that_of_wearsim_init(watched, serve, tmp_path):

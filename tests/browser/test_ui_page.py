@@ -191,6 +191,7 @@ def test_a_file_that_changed_on_disk_is_not_replaced_unasked(watched, serve):
             assert server.path.read_text() == other
         if answer.startswith("Load"):
             eventually(lambda: field(page, "title").input_value(), lambda found: found == "Of another editor")
+            settled(page)
             other = STRAND.replace("Test drive", "Of a third one")
 
 
@@ -265,7 +266,7 @@ def test_a_page_fits_and_asks_nobody_else(watched, serve, text, width, scheme):
     server = serve(text)
     opened(watched, server)
     watched.wait_for_selector(".ws-plot .main-svg")
-    origins = {re.match(r"\w+://[^/]*|\w+:", url)[0] for url in watched.origins}
+    origins = {re.match(r"\w+://[^/]*|\w+:", url)[0] for url in watched.requested}
     assert origins <= {server.url.rstrip("/"), "data:", "blob:"}
     assert watched.said == []
     eventually(lambda: watched.evaluate("document.documentElement.scrollWidth"), lambda found: found <= width)
@@ -330,7 +331,7 @@ def test_a_wrap_shows_an_estimate_then_its_life_and_only_of_the_last_input(watch
     page.wait_for_selector('.ws-state[data-state="estimate"]')
     settled(page)
     assert shown_hours(page) == life(server.path, "load.power_kW=2.3")
-    current = {text.split("\n")[0] for text in page.evaluate("seen") if "of the present" in text}
+    current = {text.split("\n")[0] for text in page.evaluate("seen") if "up to date" in text}
     assert current == {shown_hours(page)}
     assert page.locator(".ws-chart").filter(has_text="tooth").count() >= 1
 
