@@ -84,7 +84,7 @@ def section(stem: str) -> tuple[str, str]:
 def page(rows: Iterable[Row]) -> str:
     """The whole page of rows as test, line of the test, and what the fixture recorded.
 
-    Rows of one test stay in their order: pytest runs the tests of a file on one worker.
+    Rows of one test stay in their order.
     """
     by_file: dict[str, list[Row]] = {}
     for row in rows:

@@ -88,7 +88,7 @@ def table(rows: Iterable[list[str]]) -> str:
 def page(rows: Iterable[tuple[str, int, Mapping[str, object]]]) -> str:
     """The whole page of rows as test, line of the test, and what the fixture recorded.
 
-    Rows of one test stay in their order: pytest runs the tests of a file on one worker.
+    Rows of one test stay in their order.
     """
     by_file: dict[str, list[tuple[int, list[str]]]] = {}
     for place, line, row in rows:

@@ -53,6 +53,12 @@ def pytest_sessionstart(session):
         subprocess.run(command, check=True)
 
 
+def pytest_collection_modifyitems(items):
+    """Number the tests: workers end them in an order of their own, and pages have the one of the files."""
+    for number, item in enumerate(items):
+        item.user_properties.append(("number", number))
+
+
 def pytest_terminal_summary(terminalreporter, exitstatus, config):
     """Write the pages where all tests passed; with xdist only the controller comes here."""
     for kind, writer in PAGES.items():
@@ -64,9 +70,12 @@ def write_page(terminalreporter, exitstatus, file, kind, writer):
     if exitstatus:
         terminalreporter.write_line(f"{file}: not written, not all tests passed")
         return
+    reports = sorted(
+        terminalreporter.getreports("passed"), key=lambda report: dict(report.user_properties)["number"]
+    )
     rows = [
         (report.nodeid, report.location[1], row)
-        for report in terminalreporter.getreports("passed")
+        for report in reports
         for name, row in report.user_properties
         if name == kind
     ]

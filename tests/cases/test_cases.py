@@ -131,6 +131,7 @@ def test_it_loads_and_its_name_says_what_teeth_and_condition(name):
         assert case.inputs["sprocket"]["teeth"] == int(teeth[1])
 
 
+@pytest.mark.wide
 @NOT_WRAPPED
 def test_it_runs_to_a_complete_result(name):
     run, prescribed = result(name), inputs(name).get("mechanism", {}).get("kind") == "prescribed"

@@ -14,6 +14,8 @@ from wearsim.drive.load_case import load_drive
 from wearsim.report.drive.drive_text import drive_text
 from wearsim.result import Life
 
+pytestmark = pytest.mark.wide
+
 PATHS = {path.stem: path for path in sorted((Path(__file__).parents[2] / "cases" / "drives").glob("*.toml"))}
 
 

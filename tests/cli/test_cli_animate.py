@@ -72,6 +72,7 @@ def frames_of(path):
         return found, dict(file.info)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("form", ["gif", "webp", "png"])
 def test_frames_are_read_back(cli, run, tmp_path, form):
     folder, out = run(), tmp_path / f"wear.{form}"
@@ -93,6 +94,7 @@ def test_frames_are_read_back(cli, run, tmp_path, form):
     assert again.read_bytes() == out.read_bytes()
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("kind", ["strand", "wrap", "gears"])
 def test_points_are_those_of_the_run(run, kind):
     """Of a snapshot its own numbers, and halfway between two of them their mean."""

@@ -114,6 +114,8 @@ def scanned(folder, model, part, turn, shift):
     return f"{part * model.hours},profile,,0.0005,,scan.csv"
 
 
+@pytest.mark.wide
+@pytest.mark.wide
 @pytest.mark.parametrize(
     ("register", "turn", "shift", "right"),
     [
@@ -133,6 +135,7 @@ def test_profiles_are_registered_as_asked(cli, case, table, tmp_path, register, 
     assert (abs(value / 5e-11 - 1.0) < 0.02) == right
 
 
+@pytest.mark.wide
 def test_cut_off_is_the_spacing_of_the_smoothed_values(cli, case, table, tmp_path):
     path, model = case
     readings = table(scanned(tmp_path, model, 0.8, 0.0, 0.0), head=f"{HEAD},points_file")
@@ -145,6 +148,7 @@ def test_cut_off_is_the_spacing_of_the_smoothed_values(cli, case, table, tmp_pat
     assert "ISO 16610-21, cut-off 2 mm" in " ".join(text.split())
 
 
+@pytest.mark.wide
 def test_folder_holds_tables_pictures_and_the_calibrated_case(cli, case, table, tmp_path):
     path, model = case
     readings = table(depth(model, 0.4, 9.0, 1.1), depth(model, 0.8, 9.0, 1.1))
@@ -211,6 +215,7 @@ BAD = [
 ]
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(("row", "message"), BAD, ids=range(len(BAD)))
 def test_bad_cells_are_told_with_row_and_column(cli, case, table, row, message):
     path, _ = case

@@ -42,6 +42,7 @@ def test_outside_is_red_and_a_warning_yellow():
     assert "\x1b" not in re.search(r"rating +roller impact .*", shown)[0]
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("more", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
 def test_no_colour_where_none_is_wanted(more):
     shown = on_terminal(**more)

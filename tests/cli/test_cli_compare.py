@@ -4,6 +4,8 @@ import csv
 
 import pytest
 
+pytestmark = pytest.mark.wide
+
 
 @pytest.fixture(scope="module")
 def expected_files():

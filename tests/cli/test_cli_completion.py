@@ -71,6 +71,7 @@ def test_options(complete):
     assert complete("completion", "") == plain("bash", "zsh", "fish")
 
 
+@pytest.mark.wide
 def test_cases_but_no_other_files(complete):
     for command in ("life", "check", "loads", "profile", "maintain", "remaining", "strength"):
         assert complete(command, "dri") == plain("drive.toml")
@@ -106,6 +107,7 @@ def test_names_of_catalogues(complete):
     assert complete("list", "wear") == plain("wear-conditions", "wear-laws")
 
 
+@pytest.mark.wide
 def test_keys(complete):
     assert complete("life", "drive.toml", "--set", "run.hor") == plain("run.horizon_hours=")
     assert complete("life", "--solve-for", "run.hor") == plain("run.horizon_hours")
@@ -117,6 +119,7 @@ def test_keys(complete):
     assert not [line for line in complete("life", "--set", "duty") if "[" in line]
 
 
+@pytest.mark.wide
 def test_words_of_a_key_apart_as_bash_hands_them_over(complete):
     assert complete("life", "--set", "mechanism.kind", "=", "wr") == plain("wrap")
     kinds = plain("strand", "prescribed", "wrap")

@@ -188,6 +188,7 @@ wearsim.cli.main()
 """
 
 
+@pytest.mark.wide
 def test_read_only_folders(read_only):
     folder, drop = read_only
     done = subprocess.run(

@@ -190,6 +190,7 @@ def test_points_of_the_worn_strand_and_their_area(cli, drive, tmp_path):
     assert above < 0.01 * run.removed_area
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("profile", FORMS)
 def test_worn_wrap(cli, wrap, tmp_path, profile):
     """A saved run: valid, and smaller by what the run removed of every gap."""

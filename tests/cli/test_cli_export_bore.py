@@ -16,6 +16,8 @@ from wearsim.drive.load_case import load_case
 from wearsim.geometry.outline import Outline
 from wearsim.report.worn_flank import wheel_shapes
 
+pytestmark = pytest.mark.wide
+
 WRAP = """\
 format_version = 1
 title = "Wrap"

@@ -58,6 +58,7 @@ OWN = {
 """In place of the files that a user has, by command."""
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("example", [one for one in EXAMPLES if one.split()[1] not in ("ui", "warm")])
 def test_example_runs(cli, example, tmp_path, monkeypatch):
     """All but the page, which waits for a browser, and the kernels, which take a minute to compile."""

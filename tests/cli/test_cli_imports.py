@@ -45,6 +45,7 @@ def test_check_of_a_strand_compiles_nothing(drive):
     assert loaded("check", drive()) == {"numpy", "shapely"}
 
 
+@pytest.mark.wide
 def test_life_of_a_strand_runs_its_machine_code_without_numba(drive):
     loaded("life", drive())  # compiles
     assert loaded("life", drive()) == loaded("life", "--json", drive()) == {"numpy", "shapely", "llvmlite"}
@@ -71,6 +72,7 @@ def test_life_loads_pint_for_a_string_with_a_unit(drive):
     assert loaded("life", drive(power_kW='"3 kW"')) & {"pandas", "matplotlib", "pint"} == {"pint"}
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(
     ("command", "case", "needed"),
     [

@@ -15,6 +15,8 @@ from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
 from wearsim.mechanisms.wrap.drive import supply_in_words
 
+pytestmark = pytest.mark.wide
+
 STRAND = Path(__file__).with_name("strand_start.toml")
 EXAMPLE = {
     "--chain": "12B-1",
@@ -136,7 +138,7 @@ def test_lubrication_is_wear_and_a_factor(start, word, state, condition):
 def test_supply_of_lubricant_leaves_the_hours(cli, tmp_path):
     """The same drive without [lubrication] lasts as long; it only cannot be held against its speed."""
     case = tomllib.loads(cli("init", *words(EXAMPLE | {"--lubrication": "dry", "--rpm": "400"})).out)
-    case |= {"mechanism": {"phases": 1}, "run": {"life_tolerance": 0.1}}
+    case |= {"mechanism": {"phases": 1}, "run": {"life_tolerance": 0.1, "horizon_hours": 50}}
     for one in case["sprocket"]:
         one["nodes"] = 41
     found, silent = (

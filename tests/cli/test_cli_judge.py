@@ -31,6 +31,7 @@ STRAIGHT = [
 ]
 
 
+@pytest.mark.wide
 def test_answer_and_files(cli, table, tmp_path):
     out = tmp_path / "out"
     done = cli("judge", table(*STRAIGHT), "--particles", "200", "--out", out)
@@ -71,6 +72,7 @@ FALLING = {
 }
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(("rows", "words"), FALLING.values(), ids=FALLING)
 def test_wear_that_falls_is_warned_of(cli, table, rows, words):
     head = "series,cycles,wear_um" + ",reading_error" * (rows[0].count(",") - 2)

@@ -304,6 +304,7 @@ def test_solve_for_needs_hours_and_one_case(cli, drive):
     assert cli("life", *two, "--solve-for", "load.power_kW", "--require-hours", 9).code == 2
 
 
+@pytest.mark.wide
 def test_solve_for_saves_the_case_that_it_found(cli, drive, tmp_path):
     out = tmp_path / "out"
     requested = ("--solve-for", "load.power_kW", "--require-hours", 100)

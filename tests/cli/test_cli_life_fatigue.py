@@ -113,6 +113,7 @@ def test_gears_say_which_governs(cli):
     assert f"Governs wear, {grouped(found['life_hours'])} h (contact fatigue of the pinion" in text
 
 
+@pytest.mark.wide
 def test_with_and_without_side_by_side(life, cli, drive, tmp_path):
     assert life("--out", tmp_path / "run").code == 0
     done = cli("compare", tmp_path / "run", drive("plain"), "--out", tmp_path / "both")
@@ -130,6 +131,7 @@ def test_with_and_without_side_by_side(life, cli, drive, tmp_path):
     assert rows[1].endswith("| - |")
 
 
+@pytest.mark.wide
 def test_fatigue_that_governs_is_compared(cli, drive, tmp_path):
     options = ("--set", HARD, *MILD)
     done = cli("compare", drive(), "--out", tmp_path / "out", *options)

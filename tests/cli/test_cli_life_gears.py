@@ -48,6 +48,7 @@ def test_life_in_words(cli, gears):
     assert "pair_stiffness_N_per_mm_um = 14" in " ".join(done.out.split())
 
 
+@pytest.mark.wide
 def test_life_as_json_and_as_files(cli, gears, tmp_path):
     done = cli("life", gears(), "--json", "--out", tmp_path / "run")
     content = json.loads(done.out)

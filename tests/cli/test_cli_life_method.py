@@ -9,6 +9,8 @@ import pytest
 from wearsim.cli.schema import result_schema
 from wearsim.errors import ConvergenceError
 
+pytestmark = pytest.mark.wide
+
 GEARS = """\
 format_version = 1
 [gear]

@@ -81,6 +81,7 @@ def limits(line):
     return {state["name"]: (state["limit"], state["value"]) for state in line["limits"]}
 
 
+@pytest.mark.wide
 def test_answer_on_screen(cli, wrapped):
     done = cli("life", wrapped, "--explain")
     text = " ".join(done.out.split())
@@ -209,6 +210,7 @@ def test_folder_of_a_bound(cli, wrapped, tmp_path):
         saved.parts["chain"].hours  # noqa: B018
 
 
+@pytest.mark.wide
 def test_locked_case_gives_the_same_life(cli, wrapped, tmp_path):
     folder = tmp_path / "out"
     line = strict(cli("life", "--json", wrapped, "--out", folder).out)
@@ -237,6 +239,7 @@ def test_every_cycle_on_its_own_is_refused(cli, wrapped, conforms):
     assert line["life_hours"] == pytest.approx(advance["life_hours"], rel=0.02)
 
 
+@pytest.mark.wide
 def test_required_hours(cli, wrapped):
     hours = answer(cli, wrapped)["life_hours"]
     assert cli("life", wrapped, "--require-hours", 0.9 * hours).code == 0

@@ -142,6 +142,7 @@ def test_wrap_by_the_mate(loads, mate, role):
     assert len(found["teeth"]) == math.ceil(wrap / 18.0 - 1e-6)
 
 
+@pytest.mark.wide
 def test_driven_sprocket_sheds_its_load_faster(loads):
     """sin(phi +- delta)/sin(phi +- delta + 18), phi = 29 degrees, mu = 0.1: 0.7157 and 0.5992."""
     friction = (

@@ -234,6 +234,7 @@ def run(*words: str) -> Any:
     return CliRunner().invoke(wearsim_command, ["lubricate", *words], catch_exceptions=True)
 
 
+@pytest.mark.wide
 def test_shipped_case_answers(tmp_path: Path) -> None:
     out = tmp_path / "out"
     done = run("bicycle-17t-lubricants", "--json", "--out", str(out))
@@ -252,6 +253,7 @@ def test_shipped_case_answers(tmp_path: Path) -> None:
     assert "nan" not in text
 
 
+@pytest.mark.wide
 def test_whole_drive_has_all_its_parts(tmp_path: Path) -> None:
     table = '\n[lubrication]\nlubricant = "manual"\nlasts_hours = 50\ninterval_hours = 60000\n'
     text = (CASES / "drives" / "packaging-conveyor.toml").read_text("utf-8")

@@ -12,6 +12,8 @@ from wearsim.catalogue.catalogues import environments, lubricants
 from wearsim.errors import CaseError
 from wearsim.quantities import grouped
 
+pytestmark = pytest.mark.wide
+
 CASES = Path(__file__).parents[2] / "cases"
 STRAND: dict[str, Any] = {
     "format_version": 1,

@@ -152,6 +152,7 @@ def test_lists_of_values(cli, case):
     assert "sprocket.teeth of the best design lies on its high end" in " ".join(content["warnings"])
 
 
+@pytest.mark.wide
 def test_front(cli, case, tmp_path, without_pictures):
     pytest.importorskip("optuna", reason="optuna is not installed")
     pytest.importorskip("pyarrow", reason="pyarrow is not installed")

@@ -56,6 +56,7 @@ def test_faulty_case_stops_all_before_the_first_runs(cli, drive, tmp_path, monke
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.wide
 def test_force_replaces(cli, drive, tmp_path):
     out = tmp_path / "out"
     assert cli("compare", drive(), drive("b"), "--out", out).code == 0

@@ -135,6 +135,7 @@ def test_page_of_a_drive_inside_has_the_table_only(cli, drive, tmp_path):
     assert '<section id="ratings">' in page
 
 
+@pytest.mark.wide
 def test_workbook_and_comparison(cli, drive, tmp_path):
     folders = [drive()[1], drive(4.6)[1]]
     book = tmp_path / "both.xlsx"

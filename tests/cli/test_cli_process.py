@@ -27,6 +27,7 @@ wearsim.cli.main()
 """
 
 
+@pytest.mark.wide
 def test_installed_command_prints_a_life(drive):
     done = subprocess.run([WEARSIM, "life", drive()], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
@@ -42,6 +43,7 @@ def test_closed_pipe_is_141_without_a_word():
     assert (done.returncode, done.stderr) == (141, b"")
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("horizon", ["5e4", "3e5"])
 def test_interrupted_run_is_130_and_leaves_nothing(drive, tmp_path, horizon):
     """Some 1e8 or 1e9 cycles one by one take minutes; to end takes seconds at most."""
@@ -73,6 +75,7 @@ def test_interrupted_run_is_130_and_leaves_nothing(drive, tmp_path, horizon):
     assert [entry.name for entry in tmp_path.iterdir()] == ["drive.toml"]
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("command", ["life", "profile"])
 def test_folder_without_write_permission(drive, tmp_path, command):
     path = drive()

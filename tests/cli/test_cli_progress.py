@@ -66,6 +66,7 @@ def pieces(terminal):
         yield piece
 
 
+@pytest.mark.wide
 def test_bar_tells_counts_rate_and_time_left(on_terminal):
     code, out, shown = on_terminal(*STUDY, "--json")
     assert code == 0
@@ -81,6 +82,7 @@ def test_bar_tells_counts_rate_and_time_left(on_terminal):
     assert re.search(r"/s \d:\d\d:\d\d", last)
 
 
+@pytest.mark.wide
 def test_quiet_shows_nothing(on_terminal):
     code, out, shown = on_terminal("uncertainty", "--samples", "16", "-q")
     assert (code, shown) == (0, "")

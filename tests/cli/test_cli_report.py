@@ -115,6 +115,7 @@ def test_inputs_tell_given_from_default(cli, drive, tmp_path):
         assert f"<dt>{source}</dt><dd>" in page
 
 
+@pytest.mark.wide
 def test_runs_and_cases_side_by_side(cli, drive, tmp_path):
     run, out = tmp_path / "drive", tmp_path / "out"
     cli("life", drive(), "--out", run)
@@ -151,6 +152,7 @@ def test_a_single_file_holds_the_script(cli, drive, tmp_path):
     assert not re.search(r'(?:src|href)="(?:https?:)?//', markup)
 
 
+@pytest.mark.wide
 def test_a_title_is_text(cli, drive, tmp_path):
     out = tmp_path / "out"
     cli("report", drive(title=f'"{HOSTILE}"'), drive("b", title=f'"{HOSTILE}"'), "--out", out)
@@ -198,6 +200,7 @@ def test_page_of_gears(cli, tmp_path):
     assert "depth of the wheel, mm" in page
 
 
+@pytest.mark.wide
 def test_what_is_there_stays(cli, drive, tmp_path):
     out = tmp_path / "out"
     assert cli("report", drive(), drive("b"), "--out", out).code == 0
@@ -270,6 +273,7 @@ def test_page_of_a_table_of_loads(cli, tmp_path):
     assert "<dt>file hertz-arc-prescribed.csv</dt>" in page
 
 
+@pytest.mark.wide
 def test_percentiles_that_follow_from_a_run(cli, drive, tmp_path):
     path = drive()
     key = '"wear.specific_wear_rate_mm2_per_N"'

@@ -5,6 +5,8 @@ import json
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.wide
+
 SCATTER = """\
 [run]
 life_tolerance = 0.05

@@ -29,6 +29,7 @@ def test_commands_take_names(cli, command, name, word):
     assert word in done.out
 
 
+@pytest.mark.wide
 def test_what_follows_names_the_case_as_it_was_typed(cli):
     shown = cli("life", "16b-20t-oiled").out
     assert "wearsim compare 16b-20t-oiled --out reports/16b-20t-oiled" in shown

@@ -28,6 +28,7 @@ def test_case_on_stdin(cli, drive, typed, command):
     assert (found.code, found.out) == (expected.code, expected.out)
 
 
+@pytest.mark.wide
 def test_case_and_stdin_side_by_side(cli, drive, typed, tmp_path):
     typed(drive(teeth=25).read_text())
     assert cli("compare", "-", drive(), "--out", tmp_path / "out").code == 0

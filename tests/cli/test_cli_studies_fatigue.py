@@ -81,6 +81,7 @@ def test_wrap(drive, swept):
     assert rows[1]["life_hours"] <= rows[0]["life_hours"]
 
 
+@pytest.mark.wide
 def test_percentiles_are_those_of_fatigue_where_it_governs(cli, case):
     """The stress goes with the root of the load and the life with its sixth power down: L F^3."""
     scatter = '"load.tension_N" = {distribution = "lognormal", sigma_ln = 0.04}\n'
@@ -98,6 +99,7 @@ def test_percentiles_are_those_of_fatigue_where_it_governs(cli, case):
     assert cli(*options, "--require-hours", 1.01 * p10).code == 4
 
 
+@pytest.mark.wide
 def test_lives_of_no_hours(cli, case, tmp_path):
     """They count among the percentiles, but no distribution that starts at 0 has them."""
     pytest.importorskip("pyarrow", reason="pyarrow is not installed")

@@ -137,6 +137,7 @@ def test_plan_without_a_run(cli, sweep, tmp_path):
     assert "files" not in done.out
 
 
+@pytest.mark.wide
 def test_folder_and_going_on(cli, sweep, tmp_path):
     pytest.importorskip("pyarrow", reason="pyarrow is not installed")
     out = tmp_path / "out"

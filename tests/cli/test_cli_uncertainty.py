@@ -36,6 +36,7 @@ def answer(cli, *arguments):
     return done, json.loads(done.out)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("sigma", [0.3, 0.7])
 @pytest.mark.parametrize("method", ["sobol", "lhs", "random"])
 def test_closed_form_where_only_the_coefficient_scatters(cli, case, sigma, method):
@@ -95,6 +96,7 @@ def test_seed(cli, case):
     assert hours[0] == hours[1] != hours[2]
 
 
+@pytest.mark.wide
 def test_beyond_the_horizon_only_a_bound_is_known(cli, case):
     path = case(SCATTER % 0.5)
     middle = json.loads(cli("life", path, "--json").out)["life_hours"]
@@ -209,6 +211,7 @@ def test_joints_of_a_wrap_scatter_too(cli, case):
     assert found["p10_hours"] < found["p50_hours"]
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("hours", [1300, 2500, 3000])
 def test_required_hours_at_the_horizon(cli, case, hours):
     path = case()

@@ -36,6 +36,7 @@ def cold(tmp_path):
     return run
 
 
+@pytest.mark.wide
 def test_message_comes_once_and_not_on_stdout(cold):
     out, err, files = cold("life", STRAND)
     assert err.count(MESSAGE) == err.count("\n") == 1
@@ -64,6 +65,8 @@ def test_life_compiles_nothing_after_warm(cold, case):
     assert cold("warm")[0].startswith(f"0 of {count} kernels compiled")
 
 
+@pytest.mark.wide
+@pytest.mark.wide
 @pytest.mark.parametrize(
     ("kind", "case"),
     [

@@ -15,6 +15,8 @@ from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.quantities import quantities
 from wearsim.result import WearResult
 
+pytestmark = pytest.mark.wide
+
 WRAP = """
 format_version = 1
 title = "Wrapped drive"

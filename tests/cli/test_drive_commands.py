@@ -23,6 +23,7 @@ EXTRAS = ("build123d", "jinja2", "markupsafe", "nicegui", "plotly", "xlsxwriter"
 """Libraries that not every user has; pandas takes pyarrow where it is, and the quick suite has none."""
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -77,6 +78,7 @@ def test_a_chain_that_holds_needs_less_slack_tension_than_there_is(cli):
         assert 0.0 < one["min_slack_tension_N"] < one["slack_tension_N"]
 
 
+@pytest.mark.wide
 def test_a_rating_that_is_not_kept_is_told_once(cli, drive, tmp_path):
     """Loads of a duty are named with the speed of the driver, though the other one turns at another."""
     duty = "".join(
@@ -328,6 +330,7 @@ def test_readings_of_teeth_ask_for_the_case_of_one_sprocket(cli, drive, tmp_path
     assert "log.csv:2: quantity: max_depth_mm is read on the teeth of one sprocket" in done.err
 
 
+@pytest.mark.wide
 def test_bounds_on_screen_stand_in_json_and_workbook(cli, drive, tmp_path):
     """Joints that are hardened and oiled: 9e-11 to 1.5e-10 mm2/N about 1.2e-10, 1.25 and 0.75 of it.
 

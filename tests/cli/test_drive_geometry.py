@@ -107,6 +107,8 @@ def centre(layout) -> float:
     return two["x_mm"] - one["x_mm"]
 
 
+@pytest.mark.wide
+@pytest.mark.wide
 @pytest.mark.parametrize(
     ("text", "taut"),
     # tests/verification/test_drive_layout.py holds both against polygons of rigid links.

@@ -52,6 +52,7 @@ CHANGES = [
 ]
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(("before", "after", "what"), CHANGES)
 def test_every_key_changes_something(cli, tmp_path, before, after, what, loop):
     changed = loop.replace(before, after).replace(
@@ -163,6 +164,7 @@ def test_the_sag_is_that_of_the_loosest_span_of_each_block():
         assert block.spans[loosest] == pytest.approx(weight * 0.4 / (8.0 * 0.02), rel=0.03)
 
 
+@pytest.mark.wide
 def test_all_sprockets_live_with_the_same_chain(tmp_path, loop):
     path = tmp_path / "drive.toml"
     path.write_text(loop)
@@ -187,6 +189,7 @@ def test_all_sprockets_live_with_the_same_chain(tmp_path, loop):
     assert len(set(lives.values())) == 4
 
 
+@pytest.mark.wide
 def test_cogs_share_the_time_and_the_chain(tmp_path, cassette):
     path = tmp_path / "drive.toml"
     path.write_text(cassette)
@@ -395,6 +398,7 @@ def test_a_failed_part_stands_on_the_sheet(cli, idler_fails, tmp_path):
     assert 'id="flank-3"' in text and 'id="flank-2"' not in text
 
 
+@pytest.mark.wide
 def test_a_failed_part_stands_in_the_folder_and_the_comparison(cli, idler_fails, tmp_path):
     done = cli("life", idler_fails, "--out", tmp_path / "run", "--explain")
     assert done.code == 5 and "no life: the rollers are not found" in done.out.replace("\n             ", " ")

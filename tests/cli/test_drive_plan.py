@@ -235,6 +235,7 @@ def test_text_json_and_files_agree(cli, drive, tmp_path):
     assert max(map(len, lines)) <= 100
 
 
+@pytest.mark.wide
 def test_the_answer_names_the_stops_of_the_cheapest_policy(cli, drive):
     dear = ("--set", "maintenance.downtime_cost_per_hour=300")
     found = json.loads(cli("maintain", drive, "--json", *dear).out)
@@ -285,6 +286,7 @@ condition = "hardened, oiled"
 """
 
 
+@pytest.mark.wide
 def test_a_sprocket_a_little_shorter_lived_than_the_chain_takes_it_along(cli, tmp_path):
     path = tmp_path / "drive.toml"
     path.write_text(SHORTER)
@@ -337,6 +339,7 @@ def test_own_prices_need_no_common_one(cli, tmp_path, two_sprockets):
     assert "drive.toml:13: sprocket.2.price: the cost needs maintenance.chain_price too" in done.err
 
 
+@pytest.mark.wide
 def test_what_the_run_did_not_reach_is_a_bound(cli, drive):
     """With hardly any wear of the teeth in 400 h only the chain is worn out."""
     few = ("--set", "run.horizon_hours=400", "--set", "wear.specific_wear_rate_mm2_per_N=1e-11")
@@ -402,6 +405,7 @@ def test_a_cassette_is_one_part(four_cogs):
     }
 
 
+@pytest.mark.wide
 def test_cogs_of_a_cassette_share_a_line(cli, four_cogs):
     done = cli("life", four_cogs, "--set", "run.horizon_hours=4000", "--set", WORN_FAST)
     lines = done.out.splitlines()

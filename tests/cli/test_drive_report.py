@@ -258,6 +258,7 @@ def test_every_assumption_stands_once(lived, page):
             assert fine.count(f"{text}</li>") == 1
 
 
+@pytest.mark.wide
 def test_the_command_writes_a_file_or_a_folder(cli, tmp_path):
     path = written(tmp_path / "loop.toml", LOOP)
     sheet = tmp_path / "sheets" / "loop.html"

@@ -30,6 +30,7 @@ def life(cli, path, *settings):
     return [found["chain_life_hours"], *(one["sprocket_life_hours"] for one in found["sprockets"])]
 
 
+@pytest.mark.wide
 def test_a_sweep_gives_the_lives_of_all_parts(cli, drive, tmp_path):
     out = tmp_path / "out"
     done = cli("sweep", tmp_path / "sweep.toml", "--out", out)

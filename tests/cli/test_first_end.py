@@ -10,6 +10,8 @@ from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
 from wearsim.drive.maintenance import drive_plan, planned_events
 
+pytestmark = pytest.mark.wide
+
 IMPACT = 15_000 * 1.28 / (5.0 / (0.7457 * 17 * (100 * 17 / 3000) ** 1.5 * 0.5**0.8)) ** 2.5
 """Hours of rollers on 128 links: 5 kW over the rating H2 of 17 teeth, 12.7 mm, 3000 rpm, to the power 2.5."""
 

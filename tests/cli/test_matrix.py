@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.wide
+
 CASES = Path(__file__).parents[2] / "cases"
 COARSE = ("run.life_tolerance=0.1", "run.horizon_hours=20")
 WRAP = ("sprocket.nodes=41", "mechanism.phases=1", *COARSE)

@@ -212,6 +212,7 @@ def test_its_input_is_checked_like_any_other(case):
     assert "length_mm" in wrong.output.replace("lenght", "")
 
 
+@pytest.mark.wide
 def test_its_histories_pages_and_studies(case, tmp_path):
     out = tmp_path / "run"
     text = run("life", case, "--out", out)

@@ -9,6 +9,8 @@ import pytest
 
 import wearsim
 
+pytestmark = pytest.mark.wide
+
 RATE = "wear.specific_wear_rate_mm2_per_N"
 WRAP = """\
 format_version = 1

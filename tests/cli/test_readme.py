@@ -120,6 +120,7 @@ def test_answer_is_what_the_first_set_up_line_prints():
     assert done.stdout in blocks(README, "text")
 
 
+@pytest.mark.wide
 def test_every_command_runs(checkout):
     assert len([line for line in commands() if line.startswith(".venv/")]) == 5
     failed = {line: done.stderr for line, done in checkout[1].items() if done.returncode != 0}
@@ -138,6 +139,7 @@ def test_history_is_that_of_a_fresh_run(checkout):
         assert [float(value) for value in fresh_row] == pytest.approx(expected, rel=1e-4)
 
 
+@pytest.mark.wide
 def test_plot_is_three_lines_and_runs(checkout):
     (code,) = blocks(OUTPUT, "python")
     assert len(code.splitlines()) == 3

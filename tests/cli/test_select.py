@@ -11,6 +11,8 @@ import pytest
 from wearsim.drive.load_case import load_drive
 from wearsim.simulation.wrap_life import chain_practice
 
+pytestmark = pytest.mark.wide
+
 NEED = ("--power", "3 kW", "--rpm", 120, "--ratio", 2.7, "--hours", 15000)
 
 

@@ -76,6 +76,7 @@ def test_folder_of_a_study(cli, sweep, tmp_path, version):
     assert json.loads((tmp_path / "out" / "study.json").read_text())["wearsim_version"] == version
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("command", ["life", "check", "loads", "maintain"])
 def test_answers_on_a_whole_drive(cli, two_sprockets, tmp_path, version, command):
     (tmp_path / "drive.toml").write_text(two_sprockets)

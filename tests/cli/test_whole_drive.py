@@ -10,6 +10,8 @@ import wearsim
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
 
+pytestmark = pytest.mark.wide
+
 POINTS = 'name = "roll"\nteeth = 20\nprofile = "points"\npoints_file = "gap.csv"\n'
 
 

@@ -16,6 +16,8 @@ import pytest
 
 import wearsim.cli
 
+pytestmark = pytest.mark.wide
+
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = (
     *("tutorial", "howto_chain", "howto_drive", "howto_select", "howto_profile", "howto_duty"),

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.wide
+
 
 def module(name):
     """Return a file of this folder as a module, so that processes may find it by its name."""

@@ -19,6 +19,7 @@ from wearsim.wear.implicit_steps import run_seated
 from wearsim.wear.law import power
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("exponent", [1.0, 1.5])
 def test_order_of_convergence(smooth: Callable[..., Mechanism], exponent: float) -> None:
     law = power(1e-7 / 1000.0 ** (exponent - 1.0), exponent)

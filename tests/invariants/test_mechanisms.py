@@ -18,6 +18,8 @@ from wearsim.wear.law import power
 from wearsim.wear.per_cycle import run_per_cycle
 from wearsim.wear.trajectory import Trajectory
 
+pytestmark = pytest.mark.wide
+
 Build = Callable[..., Mechanism]
 
 DEPTH = 0.05

@@ -17,6 +17,8 @@ from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard
 from wearsim.wear.per_cycle import run_per_cycle
 
+pytestmark = pytest.mark.wide
+
 
 def peak(wear: Callable[[], object]) -> int:
     gc.collect()

@@ -4,6 +4,8 @@ import math
 
 import pytest
 
+pytestmark = pytest.mark.wide
+
 
 def constant(found, law, name):
     """The middle of a constant of a law, with the scatter that scores higher."""

@@ -188,6 +188,7 @@ def test_the_pressure_that_counts_is_named_where_k_e_alone_doubles_it():
     assert f"without K_e {100 * rating.used / 2.25:.2f} %, which counts" in overload_text(result)
 
 
+@pytest.mark.wide
 def test_a_whole_drive_names_shocks_where_the_rules_differ():
     """Five times the pull, 125 times the hours by the cube: far below the band of the life."""
     document = {

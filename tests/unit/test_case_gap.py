@@ -111,6 +111,7 @@ def pitch_radius(teeth: float) -> float:
     return 0.5 * PITCH / math.sin(math.pi / teeth)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("kind", ["csv", "dxf"])
 @pytest.mark.parametrize("teeth", [18, 20])
 @pytest.mark.parametrize("form", ["min", "max"])
@@ -127,6 +128,7 @@ def test_gap_of_a_tooth_more_or_less_is_refused(tmp_path: Path, kind: str, teeth
     assert float(found[1]) == pytest.approx(seat, abs=1e-3)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("seat", SEATS)
 @pytest.mark.parametrize("form", FORMS)
 def test_points_of_standard_forms_are_taken(tmp_path: Path, form: str, seat: str) -> None:
@@ -134,6 +136,7 @@ def test_points_of_standard_forms_are_taken(tmp_path: Path, form: str, seat: str
     assert not case_with(tmp_path / "gap.csv", points_of(gap)).warnings
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("seat", SEATS)
 @pytest.mark.parametrize("form", ["iso606 max", "gost591 displaced"])
 def test_drawings_of_standard_forms_are_taken(tmp_path: Path, form: str, seat: str) -> None:
@@ -141,6 +144,7 @@ def test_drawings_of_standard_forms_are_taken(tmp_path: Path, form: str, seat: s
     assert not case_with(tmp_path / "gap.dxf", points_of(gap)).warnings
 
 
+@pytest.mark.wide
 def test_no_standard_seats_the_roller_higher_than_the_pitch_circle_or_lower_than_iso_max() -> None:
     """ISO's maximum form: 0.005 d1 + 0.069 cbrt(d1), of which the check names the extremes."""
     sizes = {(chain.pitch, chain.roller_diameter) for chain in chains().values()}
@@ -212,6 +216,7 @@ def test_few_vertices_are_doubted_and_fewer_refused(tmp_path: Path) -> None:
         case_with(tmp_path / "gap.dxf", points_of(gap, 21))
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("count", [61, 201])
 @pytest.mark.parametrize("form", ["min", "max"])
 def test_loads_of_a_polyline_are_those_of_the_form(tmp_path: Path, form: Any, count: int) -> None:

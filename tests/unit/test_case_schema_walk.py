@@ -12,6 +12,8 @@ from wearsim.input.schema import CaseTables
 from wearsim.input.schema.lubrication_tables import LubricantOption
 from wearsim.report.flank_view import profile_table
 
+pytestmark = pytest.mark.wide
+
 WITHOUT_EFFECT = {
     "title": "only shown above the answer",
     "drive.service_factor": "only the rating that check prints (test_cli_check_rating.py)",

@@ -100,6 +100,7 @@ def failing(monkeypatch, *gaps):
 SHORT = {**DRIVE, "run": {"horizon_hours": 50.0, "life_tolerance": 0.1}}
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("gaps", [(17,), (38,), (13, 15, 17, 19)])
 def test_others_live_on_where_one_fails(monkeypatch, gaps):
     whole = drive_life(load_drive(SHORT))
@@ -158,6 +159,7 @@ RUN_IN = {
 }
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("cassette", [False, True])
 def test_joints_have_one_clock_of_running_in(cassette):
     """That of their way in a loop, 2 pi d2 sum(1/z): all chains last as long, seen from each sprocket."""
@@ -178,6 +180,7 @@ def test_joints_have_one_clock_of_running_in(cassette):
         assert chain_changes(result) == pytest.approx([life, 2.0 * life], rel=1e-6)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("running_in", [1.0, 4.0])
 def test_a_new_chain_comes_lubricated(running_in):
     """With a lubricant that is never renewed on the drive every chain lasts as long as the first."""

@@ -18,6 +18,8 @@ from wearsim.input.keys import schema_fields
 from wearsim.input.schema import CaseTablesOrDrive
 from wearsim.report.drive.layout import layout_json
 
+pytestmark = pytest.mark.wide
+
 OF_ONE = runpy.run_path(str(Path(__file__).with_name("test_case_schema_walk.py")))
 BASES, CHANGES, OWN_CHAIN, WRAP, draw, edited = (
     OF_ONE[name] for name in ("BASES", "CHANGES", "OWN_CHAIN", "WRAP", "draw", "edited")

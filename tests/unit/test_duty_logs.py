@@ -234,6 +234,7 @@ class TestOtherFlank:
         assert found == {1082: (1.0, 1.0), 691: (0.0, 1.0)}
         assert "for 50 % of the cycles the load is negative" in said(case, "negative")
 
+    @pytest.mark.wide
     def test_joints_wear_in_full_and_the_flank_half(self, logged):
         """The chain of both blocks; the teeth as in the half of the cycles at 40 N m alone."""
         found = simulate(load_case({**WRAP, **logged(*self.ROWS, head=self.HEAD)}))

@@ -63,6 +63,7 @@ def test_every_key_is_here_and_no_other(leaves):
     assert {*CHANGES, "format_version"} == set(leaves(FaceLoadTables))
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(("key", "value"), CHANGES.items())
 def test_key_changes_the_sheet(base, key, value):
     assert sheet(with_value(key, value)) != base

@@ -33,6 +33,7 @@ def results():
     return [wearsim.simulate(wearsim.load_case(tables)) for tables in cases]
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("count", [1, 3, 5])
 def test_flanks_lie_inside_panels_of_one_size(results, count):
     shown = (results * 2)[:count]

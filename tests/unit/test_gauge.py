@@ -96,6 +96,7 @@ def fits(gauge_, steel_, turn=0.0):
     return not placed.buffer(-FINE).intersects(steel_)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("form", [*STRANDS, *WRAPS])
 def test_it_goes_in_where_the_gap_is_worn_out_and_nowhere_else(tmp_path, form):
     """Both shoulders on the tips: too wide for a new gap and for one that is worn by 95 % of the limit."""
@@ -117,6 +118,7 @@ def test_it_goes_in_where_the_gap_is_worn_out_and_nowhere_else(tmp_path, form):
     assert sides == {False, True}
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("form", [*STRANDS, *WRAPS])
 def test_what_is_worn_less_elsewhere_does_not_keep_it_out(tmp_path, form):
     """A gap as deep where the model wears it most, and new towards seat and tip, is worn out too."""
@@ -127,6 +129,7 @@ def test_what_is_worn_less_elsewhere_does_not_keep_it_out(tmp_path, form):
     assert fits(body, steel(worn(case, (WHERE, limit * other)), "worn"))
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("form", [*STRANDS, *WRAPS])
 def test_it_comes_in_from_above(tmp_path, form):
     """Into a gap that is worn out, also where only its deepest part is worn and the tip is new."""

@@ -16,6 +16,8 @@ from wearsim.input.schema.lubrication_tables import LubricantOption
 from wearsim.mechanisms.gear_pair.keys import GearTables
 from wearsim.simulation.batch_lives import CaseLife
 
+pytestmark = pytest.mark.wide
+
 WITHOUT_EFFECT = {
     **{
         f"lubrication.{key}": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)"

@@ -105,6 +105,7 @@ print(len(object_code(one)))
 """
 
 
+@pytest.mark.wide
 def test_kernel_that_numba_has_compiled_in_full_before_is_linked_all_the_same():
     """In a process of its own: what numba compiles in full first depends on what ran before."""
     done = subprocess.run([sys.executable, "-c", NUMBA_FIRST], capture_output=True, text=True)

@@ -108,6 +108,7 @@ def test_chains_and_stops_by_hand(hours, chains, used, stops):
     assert ReplacementPolicy(0.03, True, 1000.0, Life(1.0, hours), 0.0).stops == stops + 1
 
 
+@pytest.mark.wide
 def test_chain_lives_are_linear_in_the_elongation(plan):
     assert policy(plan, 3).chain_hours == pytest.approx(3 * policy(plan, 1).chain_hours, rel=1e-12)
 

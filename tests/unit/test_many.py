@@ -79,6 +79,7 @@ def same(found: CaseLife | WearsimError, case: wearsim.Case) -> bool:
     return True
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("threads", [1, 2])
 def test_lives_are_those_of_the_cases_alone(table: CaseMaker, threads: int) -> None:
     cases = [

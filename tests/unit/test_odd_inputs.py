@@ -158,6 +158,7 @@ def test_case_keeps_the_text_of_its_files(tmp_path):
     assert wearsim.simulate(case).input_files == {csv.name: text}
 
 
+@pytest.mark.wide
 def test_drawing_in_another_encoding_is_kept(tmp_path):
     """Bytes that are no UTF-8 come back from a saved run as they were."""
     from wearsim.cad.wheel_formats import export

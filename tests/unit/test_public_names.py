@@ -65,6 +65,7 @@ def test_former_names_lead_to_public_ones_of_a_later_version():
         assert later > now
 
 
+@pytest.mark.wide
 def test_a_typed_program_runs():
     client = runpy.run_path(str(Path(__file__).parents[1] / "typed_client.py"))
     client["main"]()

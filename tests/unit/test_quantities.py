@@ -223,6 +223,7 @@ def test_every_input_key_is_listed():
     assert all_input_keys() - set(quantities()) == set()
 
 
+@pytest.mark.wide
 def test_every_column_is_listed(written):
     assert written - set(quantities()) == set()
 

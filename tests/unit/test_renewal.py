@@ -65,6 +65,7 @@ def test_the_oracle_by_hand():
     assert least_of_all_schedules([2, 5], [1.0, 1.0], 10.0, 200) == pytest.approx(5.75, abs=0.02)
 
 
+@pytest.mark.wide
 def test_no_schedule_is_much_cheaper_on_fifty_drives():
     dearer = []
     for seed in range(50):

@@ -139,6 +139,7 @@ def test_margins_go_from_new_to_the_limit(strand):
     assert 0.0 < depth.used < 1.0
 
 
+@pytest.mark.wide
 def test_a_run_that_moved_still_has_its_case(tmp_path):
     source = Path(__file__).parents[2] / "cases" / "beet-harvester-18t-soil.toml"
     result = wearsim.simulate(wearsim.load_case(source, ["run.horizon_hours=5"]))
@@ -224,6 +225,7 @@ def test_a_life_that_the_wheel_ends_is_told():
     assert "worn off the wheel" in " ".join(answer(result, "x.toml").split())
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("single_file", [False, True])
 def test_pages_are_the_same_for_the_same_run_and_small(strand, tmp_path, single_file):
     texts = []

@@ -82,6 +82,7 @@ def assert_equal_columns(one, other):
         np.testing.assert_array_equal(one[name], other[name], err_msg=name)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("kind", KINDS)
 def test_load_gives_back_what_was_saved(results, kind):
     result, folder = results(kind)
@@ -97,6 +98,7 @@ def test_load_gives_back_what_was_saved(results, kind):
     assert loaded.summary() == result.summary()
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("kind", KINDS)
 def test_lock_runs_again_to_the_same_numbers_anywhere(results, kind, tmp_path):
     result, folder = results(kind)

@@ -48,6 +48,7 @@ def test_roller_is_stopped_by_a_neck_above_its_pocket() -> None:
     assert met_near(x, y, 15, ray, 1.0) == -1
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("seed", range(20))
 def test_nearby_search_never_differs_from_trying_all(seed: int) -> None:
     """Random gaps, undercut or not: either the same place or none."""
@@ -81,6 +82,7 @@ def test_flank_that_is_turned_over_is_refused(tmp_path: Path) -> None:
     assert isinstance(found, ConvergenceError)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("factor", [0.2, 8.0, 30.0])
 def test_core_far_softer_than_its_layer_wears_on(factor: float) -> None:
     """Against the loop over updates of 20 cycles."""
@@ -130,6 +132,7 @@ def test_rough_table_is_named(tmp_path: Path) -> None:
         wearsim.simulate(wearsim.load_case(alternating(tmp_path)))
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("exponent", [1.08, 1.15, 1.25])
 def test_flank_that_nearly_conforms_is_told(tmp_path: Path, exponent: float) -> None:
     """The pressure that the wear feeds on fades: 1/rho_H falls to 0 without passing it."""

@@ -212,6 +212,7 @@ def test_rollers_rest_as_on_rigid_teeth_but_for_what_these_yield():
     np.testing.assert_allclose(found, loads.force, atol=0.02 * loads.force.max())
 
 
+@pytest.mark.wide
 def test_life_by_the_loop_over_events_with_small_steps():
     """Half-space and rigid places, first order: within 2 % of each other."""
     of = contact()
@@ -219,6 +220,8 @@ def test_life_by_the_loop_over_events_with_small_steps():
     assert life(run_seated(of, LAW, LIMIT, 1e12, 1)) == pytest.approx(life(loop), rel=0.02)
 
 
+@pytest.mark.wide
+@pytest.mark.wide
 @pytest.mark.parametrize(
     "law",
     [
@@ -234,6 +237,7 @@ def test_laws_by_the_loop_over_events(law):
     assert life(run_seated(of, law, LIMIT, 1e15, 1)) == pytest.approx(life(loop), rel=0.04)
 
 
+@pytest.mark.wide
 def test_shorter_steps_and_more_phases_hardly_move_a_life():
     """Usual steps, four phases: within 0.1 % of steps an eighth as long, 0.3 % of three times the phases."""
     usual = life(run_seated(contact(), LAW, LIMIT, 1e12, 0))
@@ -282,6 +286,7 @@ def test_one_failing_run_fails_all_and_progress_rises():
         run_together([(of, -1)], archard(0.0), LIMIT, 1e12)
 
 
+@pytest.mark.wide
 def test_steps_are_halved_where_the_error_asks_for_it():
     of, told = contact(), []
     loose, error = advance_resting(of, LAW, LIMIT, 1e12, 0.1)

@@ -155,6 +155,7 @@ def test_seat_clears_the_roller() -> None:
     np.testing.assert_allclose(shape.seat[-1], [shape.back_flank.x[-1], shape.back_flank.y[-1]], atol=1e-9)
 
 
+@pytest.mark.wide
 def test_roller_never_enters_the_wheel() -> None:
     """A polygon of the roller, carried along its way in and out, overlaps by nothing."""
     shape = tooth()

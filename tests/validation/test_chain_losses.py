@@ -60,6 +60,7 @@ def read(data):
     return data("chain_efficiency").set_index(["teeth", "power_W"]).efficiency_percent
 
 
+@pytest.mark.wide
 def test_order_of_loads(read, measured):
     """From load to load on each of three cogs."""
     rises = [
@@ -120,6 +121,7 @@ def test_a_dry_chain_loses_more(measured):
     )
 
 
+@pytest.mark.wide
 def test_friction_of_a_dry_chain():
     """What the text says: 4 to 5 points more need joints of 0.7 to 0.8."""
     frictions = np.linspace(0.11, 1.0, 10)

@@ -36,6 +36,8 @@ import pytest
 
 import wearsim
 
+pytestmark = pytest.mark.wide
+
 WITHIN_90, WITHIN_50 = (0.80, 0.97), (0.35, 0.65)
 """Parts of the readings that bands may hold: stated before."""
 

@@ -213,6 +213,7 @@ def from_early(wear):
     return law_of_powers(wear, lambda one: one.cycles > 50, 8000)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(("load", "cycles"), [(10, 500), (100, 50)])
 def test_law_of_powers(wear, from_early, measured, load, cycles):
     found = from_early if cycles > 50 else law_of_powers(wear, lambda one: one.load_g == 100, 400)

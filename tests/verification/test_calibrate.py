@@ -23,6 +23,8 @@ from wearsim.study.calibrate.model import calibrate
 from wearsim.study.calibrate.readings import Reading
 from wearsim.study.remaining.relubrications import RelubricationLog
 
+pytestmark = pytest.mark.wide
+
 STRAND = {
     "format_version": 1,
     "chain": {"designation": "16B-1"},

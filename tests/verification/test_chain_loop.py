@@ -82,6 +82,7 @@ def _random_ring(draw: np.random.Generator) -> tuple[Wheel, ...]:
     )
 
 
+@pytest.mark.wide
 def test_random_loops_are_hulls(validated: Callable[..., None]) -> None:
     draw = np.random.default_rng(19)
     found, expected, missed = [], [], 0

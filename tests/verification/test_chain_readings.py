@@ -168,6 +168,7 @@ PAGE = Path(__file__).parents[2] / "docs/howto_measured_sprocket.md"
 TOLD = r"(\d+) lives and\s+those of 50 % hold (\d+) where lengths.*?, (\d+) and (\d+) where gauges were"
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(
     ("reading_of", "seed", "told"), [(measured, 1, (0, 1)), (gauged, 2, (2, 3))], ids=["measured", "gauges"]
 )

@@ -102,6 +102,7 @@ def test_no_running_in_changes_no_digit() -> None:
     assert NO_RUNNING_IN.steady_cycles(0.1) == 0.1
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("life", [strand, wrap])
 def test_running_in_shortens_a_life_by_what_it_wore_too_much(life: Any) -> None:
     """Over a distance far below that of the life the cost is (f - 1) N_r cycles.
@@ -158,6 +159,7 @@ def test_hardened_layer_of_a_flat_flank(tmp_path: Path, method: str) -> None:
     assert soft.cycles == pytest.approx(plain.cycles * (0.25 + 0.75 / 8.0), rel=1e-3)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("life", [strand, wrap])
 def test_no_layer_at_all_is_the_core_alone(life: Any) -> None:
     plain = life("joint.specific_wear_rate_mm2_per_N=1e-20") if life is wrap else life()
@@ -206,6 +208,7 @@ def last_thickness(case: wearsim.Case, result: WearResult) -> float:
     return float(case.drive.worn_thickness(last["x_mm"].to_numpy(), last["y_mm"].to_numpy()))
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("life", [strand, wrap])
 def test_life_ends_with_the_thickness(life: Any) -> None:
     case = wearsim.load_case(STRAND, FEW) if life is strand else wearsim.load_case(WRAP)
@@ -222,6 +225,7 @@ def test_life_ends_with_the_thickness(life: Any) -> None:
         assert found["min_tooth_thickness_mm"] == pytest.approx(least, rel=1e-6)
 
 
+@pytest.mark.wide
 def test_life_ends_with_the_measurement_over_pins() -> None:
     finer = "stop.critical_depth_mm=0.2", "sprocket.nodes=301", "mechanism.phases=8"
     free = wrap(*finer)

@@ -101,6 +101,7 @@ def test_an_oval_is_told(path: Path, stretched: float) -> None:
         assert shape == pytest.approx(bottom, rel=0.06)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("off", [5e-4, 0.03, 0.3, 3.0])
 @pytest.mark.parametrize("bored", [True, False])
 def test_teeth_off_their_axis_are_told(path: Path, off: float, bored: bool) -> None:

@@ -92,6 +92,7 @@ def test_one_block_on_a_strand_is_the_constant_run(law, kind):
     assert_allclose(numbers(one), same, rtol=1e-12)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("kind", ["share_of_time", "share_of_cycles"])
 def test_one_block_on_a_wrap_is_the_constant_run(kind):
     one = wrap(duty=[block(1, 1300, 97.3, kind=kind)])
@@ -249,6 +250,7 @@ class TestWrap:
         one = constant_wrap().parts["sprocket"]
         assert life.cycles == pytest.approx(one.cycles, rel=0.02)
 
+    @pytest.mark.wide
     def test_twice_the_speed_is_half_the_hours_and_the_same_cycles(self):
         """Centrifugal tension loads joints but not teeth."""
         slow, fast = (
@@ -258,6 +260,7 @@ class TestWrap:
         assert fast.cycles == pytest.approx(slow.cycles, rel=1e-4)
         assert fast.hours == pytest.approx(slow.hours / 2, rel=1e-4)
 
+    @pytest.mark.wide
     @pytest.mark.parametrize(
         ("applies_to", "teeth", "joints"), [("all", 2.0, 2.0), ("teeth", 2.0, 1.0), ("joints", 1.0, 2.0)]
     )

@@ -200,6 +200,7 @@ def with_chords(drawing: Drawing, form: Arcs, tolerance: float, turn: float) -> 
     drawing.modelspace().add_lwpolyline([rotated(vertex, turn) for vertex in vertices])
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("tolerance", "error"), [(1e-4, 1e-4), (1e-3, 2e-3)])
 def test_polyline_of_chords_is_read_as_the_curve(
@@ -215,6 +216,7 @@ def test_polyline_of_chords_is_read_as_the_curve(
     assert math.sqrt(np.mean(np.square(distances))) < 0.3 * tolerance
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("loose", [False, True], ids=["polyline", "lines"])
 def test_even_chords_of_a_whole_wheel(form: Arcs, loose: bool, save: Callable[[Drawing], Path]) -> None:
@@ -240,6 +242,7 @@ def test_joints_are_found_in_few_exact_points(form: Arcs) -> None:
     assert form.error(np.column_stack([gap.x, gap.y])) < 1e-4
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("noise", "step"), [(0.0, 0.02), (1e-4, 0.02), (0.0, 0.1), (1e-4, 0.1)])
 def test_smooth_outline_keeps_the_joints_of_exact_points(form: Arcs, noise: float, step: float) -> None:
@@ -253,6 +256,7 @@ def test_smooth_outline_keeps_the_joints_of_exact_points(form: Arcs, noise: floa
     np.testing.assert_allclose(inside, -1.0 / form.seat_radius, rtol=0.01)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("noise", [1e-4, 1e-3, 1e-2])
 def test_noise_is_smoothed_away(form: Arcs, noise: float) -> None:

@@ -240,6 +240,7 @@ def test_mean_elongation_is_that_of_the_joints(pitch: str) -> None:
     assert (inner == PITCH) == (pitch == "alternating")
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("role", ["driver", "driven"])
 def test_life_of_the_chain_is_that_of_the_run(validated: Callable[..., None], role: str) -> None:
     """Through ``simulate``: hours of the chain, stop, and the elongation in the history."""

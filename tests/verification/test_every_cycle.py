@@ -28,6 +28,7 @@ WRAP = {
 }
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("tables", [GEARS, WRAP], ids=["gears", "wrap"])
 def test_life_and_depth_of_both_methods(tables):
     """The loop knows nothing of the steps: both lives agree within the error that these state."""

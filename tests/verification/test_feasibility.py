@@ -55,6 +55,7 @@ def proposal(message: str, key: str) -> float:
     return float(found[-1])
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("parameters", random_drives())
 def test_proposed_offset_is_accepted_and_less_is_refused(
     parameters: tuple[float, float, int, float, float],

@@ -60,6 +60,7 @@ def test_any_step_on_the_benchmark_is_right_or_refused(b9: CaseMaker, factor: fl
     right_or_refused(lambda *settings: b9(100, *settings), stable, factor)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("factor", FACTORS)
 @pytest.mark.parametrize("exponent", [1.0, 2.0])
 def test_any_step_on_the_strand_is_right_or_refused(exponent: float, factor: float) -> None:

@@ -236,6 +236,7 @@ def test_worn_area_is_rate_times_load_times_sliding(wear):
 CONFORMAL = [(3.96, 4.018, 100.0), (3.96, 4.018, 1000.0), (3.96, 3.96396, 1000.0), (3.96, 3.96, 50.0)]
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(("radius", "seat_radius", "load"), CONFORMAL)
 @pytest.mark.parametrize("wear", [0.0, 1e-6, 1e-3])
 @pytest.mark.parametrize("turn", [0.0, 0.15])

@@ -11,6 +11,8 @@ from wearsim.study.judge.sampler import draws
 from wearsim.study.judge.scatter import Scatter, forecasts, log_scores, quantiles
 from wearsim.study.judge.wear_series import WearReading, wear_series
 
+pytestmark = pytest.mark.wide
+
 
 def columns(*values):
     return [np.array([[value]]) for value in values]

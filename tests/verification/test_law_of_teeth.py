@@ -59,12 +59,14 @@ def of_drive(**tables: Any) -> dict[str, Any]:
     }
 
 
+@pytest.mark.wide
 def test_half_of_the_samples_live_as_long_as_the_case(slow: wearsim.Case, life: float) -> None:
     near = {key: {"distribution": "lognormal", "sigma_ln": 0.01} for key in (TEETH, JOINTS)}
     found = wearsim.uncertainty(slow, near, samples=4, threads=1)
     assert found.samples["life_hours"].median() == pytest.approx(life, rel=0.02)
 
 
+@pytest.mark.wide
 def test_teeth_read_as_predicted_keep_their_rate(slow: wearsim.Case, life: float) -> None:
     found = wearsim.calibrate(slow, readings("max_depth_mm", life, 0.1))
     (value,) = found.found.values

@@ -63,6 +63,7 @@ def mean_factor(exponent: float) -> float:
     return float(quad(lambda t: math.sin(t) ** (exponent + 1.0), 0.0, 0.5 * math.pi)[0])
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
 @pytest.mark.parametrize("column", ["slip_ratio", "sliding_distance_mm"])
 @pytest.mark.parametrize(("wear", "exponent", "factor"), LAWS)

@@ -223,6 +223,7 @@ def by_hand(steady: float, lasts: float, interval: float) -> float:
     return rounds * interval + (rest if rest <= lasts else lasts + (rest - lasts) / 5.0)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("case", [STRAND, TABLE, GEARS, WRAP], ids=["strand", "table", "gears", "wrap"])
 def test_lives_go_with_the_clock(case: list[Any]) -> None:
     """The same law for teeth, joints and gears: each life is that of steady contacts by hand."""
@@ -242,6 +243,7 @@ def test_lives_go_with_the_clock(case: list[Any]) -> None:
         assert found.parts[part].hours_run == pytest.approx(expected, rel=2e-2)
 
 
+@pytest.mark.wide
 def test_elongation_is_straight_between_the_rows_of_a_history(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every chain grows by its own lubricated hours, by hand; an interval ends just after a chain."""
     settings = ["joint.specific_wear_rate_mm2_per_N=2e-8", "stop.critical_depth_mm=0.008"]

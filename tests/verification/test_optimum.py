@@ -28,6 +28,8 @@ from wearsim.study.optimise.model import OptimiseStudy, blank_mass, load_optimis
 from wearsim.study.optimise.search import search
 from wearsim.study.optimise.trials import Candidate, Trials, front
 
+pytestmark = pytest.mark.wide
+
 WIDTH = 17.0
 CASE: dict[str, Any] = {
     "format_version": 1,

@@ -52,6 +52,7 @@ def points_case(tmp_path: Path, reference_tables: dict[str, Any]) -> Maker:
     return case
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("overrides", [(), RANGE], ids=["range-of-points", "range-given"])
 @pytest.mark.parametrize(("exponent", "within"), [(1, 0.02), (2, 0.02)])
 def test_life_of_noisy_points(

@@ -30,6 +30,7 @@ def last_flank(result: wearsim.WearResult) -> shapely.LineString:
     return shapely.LineString(np.column_stack([columns["x_mm"], columns["y_mm"]])[-nodes:])
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
 @pytest.mark.parametrize("nodes", [101, 201, 401])
 @pytest.mark.parametrize("exponent", LIVES)
@@ -67,6 +68,7 @@ def test_contact_ratio_falls_below_one_and_is_warned_of(reference: CaseMaker) ->
     assert sum(bool(re.search("worn contact ratio .* below 1", text)) for text in result.warnings) == 1
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(("exponent", "depth"), [(1, 0.2), (1.5, 0.2), (1, 0.75), (2, 0.75)])
 def test_both_methods_agree(reference: CaseMaker, exponent: float, depth: float) -> None:
     """The same life within the tolerance and the same worn flank within 1e-5 of the depth.

@@ -44,6 +44,7 @@ def saved(
     )
 
 
+@pytest.mark.wide
 def test_removed_area_is_the_shoelace_area(saved: Saved) -> None:
     x, y = saved.flanks["x_mm"], saved.flanks["y_mm"]
     area = []
@@ -94,6 +95,7 @@ def test_pressure_of_the_file_is_hertz_of_its_load_and_curvature(saved: Saved) -
     np.testing.assert_allclose(pressure, np.sqrt(load * relative * modulus / np.pi), rtol=1e-12)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(
     ("name", "closes"), [("16b-20t-oiled", 1e-4), ("520-15t-wrap", 1e-3), ("hertz-arc-prescribed", 3e-3)]
 )

@@ -120,6 +120,7 @@ def lubricated(word: str, power: float = 18.5) -> DriveRequirements:
     return DriveRequirements(power, 1450.0, 3.0, 15_000.0, joints=joints, lubrication=word)
 
 
+@pytest.mark.wide
 def test_lubrication_below_the_recommended_one_refuses() -> None:
     """No. 50 on 19 teeth at 1450 rpm: 19 x 15.875 x 1450/60000 = 7.29 m/s, and drip ends at 1.27 m/s.
 
@@ -138,6 +139,7 @@ def test_lubrication_below_the_recommended_one_refuses() -> None:
     assert not bath.refusals
 
 
+@pytest.mark.wide
 def test_lubrication_is_not_counted_twice() -> None:
     """Dry joints wear at a rate of their own, which is worse than 0.04 times the life with oil."""
     dry, bath = (drive_of(judged(lubricated(word)), "10A-2", (19, 56)) for word in ("dry", "oil-bath"))
@@ -351,6 +353,7 @@ def test_small_catalogue_by_a_plain_loop(validated: Callable[..., None], name: s
     )  # fmt: skip
 
 
+@pytest.mark.wide
 def test_every_limit_refuses_something() -> None:
     """The wrap angle has a test of its own: 40 pitches keep it above 120 degrees."""
     needs = [*NEEDS.values(), DriveRequirements(60.0, 1500.0, 2.0, 1000.0)]
@@ -409,6 +412,7 @@ def test_driving_faster_mirrors_driving_slower() -> None:
         assert [f.used for f in one.findings] == pytest.approx([f.used for f in other.findings], rel=1e-12)
 
 
+@pytest.mark.wide
 def test_life_goes_with_the_wear_rate() -> None:
     """Twice the rate, half the life; a band of 4 beside those of routes and extrapolation."""
     need = DriveRequirements(3.0, 120.0, 2.7, 1.0)
@@ -423,6 +427,7 @@ def test_life_goes_with_the_wear_rate() -> None:
     assert second.life_high == pytest.approx(second.life * high, rel=1e-12)
 
 
+@pytest.mark.wide
 def test_what_decides_is_what_overloads() -> None:
     """A drive is refused by its ratings where a case of it would be overloaded, and nowhere else."""
     for need in NEEDS.values():

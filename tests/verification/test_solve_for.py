@@ -33,6 +33,8 @@ def life(*settings: str) -> float:
     return wearsim.simulate(wearsim.load_case(STRAND, settings)).life.hours
 
 
+@pytest.mark.wide
+@pytest.mark.wide
 @pytest.mark.parametrize(
     ("key", "start", "factor"),
     [
@@ -59,6 +61,7 @@ def test_rising_life() -> None:
     assert found.elasticity == pytest.approx(1.0, rel=2e-3)
 
 
+@pytest.mark.wide
 def test_whole_number_is_the_next_that_lives_as_long() -> None:
     hours = 1.4 * life()
     found = solved("sprocket.teeth", 20, hours, whole=True)

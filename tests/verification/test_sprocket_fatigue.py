@@ -119,6 +119,7 @@ def test_wrap_by_its_highest_pressure_on_new_gaps() -> None:
     assert result.parts["sprocket_fatigue"].hours == pytest.approx(hours, rel=1e-9)
 
 
+@pytest.mark.wide
 def test_load_factor_on_a_wrap_is_one_on_all_forces() -> None:
     """Tensions and stiffness of the links times 1.2: the same way of the rollers, 1.2 the forces."""
     tension, slack, stiffness = 3000.0, 40.0, 5e4
@@ -154,6 +155,7 @@ def test_duty_of_a_strand_by_hand(strand: Callable[..., dict[str, Any]]) -> None
     assert hours == pytest.approx(expected, rel=5e-3)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("kind", ["strand", "wrap"])
 def test_duty_is_the_sum_of_miner(strand: Callable[..., dict[str, Any]], kind: str) -> None:
     weak = {**SOFT, "contact_safety": 1.5}
@@ -258,6 +260,7 @@ def test_wear_is_the_same_with_and_without(strand: Callable[..., dict[str, Any]]
     assert not {"governing_life", "sprocket_fatigue_life_hours"} & set(plain.summary())
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("kind", ["strand", "wrap"])
 def test_a_saved_result_reloads(strand: Callable[..., dict[str, Any]], kind: str, tmp_path: Path) -> None:
     tables = strand() if kind == "strand" else {**WRAP, "fatigue": {"sprocket": HARD}}

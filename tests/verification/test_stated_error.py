@@ -17,6 +17,7 @@ def rows(stated_error):
     return stated_error.read()
 
 
+@pytest.mark.wide
 def test_it_holds_where_it_did_not(stated_error, rows, tmp_path):
     references = {row.number: row.reference for row in rows if row.kind == "strand"}
     for number in SILENT:

@@ -34,6 +34,7 @@ SI: dict[str, Any] = {
 }
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("rate", ["1e-14 m^2/N", "1e-5 mm^3/(N*m)", "1e-14 m^3/(N*m)"])
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
 def test_si_input_gives_the_same_life(reference: CaseMaker, rate: str, method: str) -> None:

@@ -156,6 +156,7 @@ def test_tip_land_of_the_new_tooth_bounds_the_limit(reference: CaseMaker) -> Non
         reference(1, "stop.min_tip_land_mm=9.2")
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize(("method", "exponent"), [("advance", 1), ("advance", 2), ("per_cycle", 2)])
 def test_no_number_of_a_result_is_nan(reference: CaseMaker, exponent: float, method: str) -> None:
     result = wearsim.simulate(reference(exponent, f"run.method={method}", "stop.critical_depth_mm=0.75"))

@@ -127,6 +127,7 @@ def test_lives_in_batches_are_the_same() -> None:
     assert many.life.cycles == wearsim.simulate(case).cycles
 
 
+@pytest.mark.wide
 def test_joints_of_every_chain_begin_anew() -> None:
     """Chain k lives as long as the first: by hand, N = N_ref (limit/(rate N_ref))^(1/b)."""
     settings = [
@@ -146,6 +147,7 @@ def test_joints_of_every_chain_begin_anew() -> None:
     np.testing.assert_allclose(np.diff([0.0, *last]), expected, rtol=1e-6)
 
 
+@pytest.mark.wide
 def test_a_whole_drive_has_one_clock() -> None:
     """N = N_ref (tau/N_ref)^(1/b) in hours, the same for all sprockets and both ends of the band."""
     case = Path(__file__).parents[2] / "cases" / "drives" / "packaging-conveyor.toml"
@@ -268,6 +270,7 @@ def test_published_rate_by_t_gamma(energy: float, rate: float) -> None:
     assert t_gamma_rate(energy) == pytest.approx(rate, rel=1e-12)
 
 
+@pytest.mark.wide
 @pytest.mark.parametrize("method", ["advance", "per_cycle"])
 @pytest.mark.parametrize("slip", [0.01, 0.2])
 def test_life_by_t_gamma(validated: Callable[..., None], flat: CaseMaker, slip: float, method: str) -> None:

@@ -275,6 +275,7 @@ def test_area_of_a_step_is_k_q_s() -> None:
     assert run.area >= COEFFICIENT * worn * 1000.0
 
 
+@pytest.mark.wide
 def test_steps_converge() -> None:
     """Lives of the levels 0 to 3 within 0.7 %, from the level 1 on within 0.4 %.
 
@@ -311,6 +312,7 @@ def test_phases_do_not_matter() -> None:
     np.testing.assert_allclose(lives, lives[-1], rtol=0.01)
 
 
+@pytest.mark.wide
 def test_nodes_do_not_matter() -> None:
     """301, 601 and 1201 points; the finest two within 0.5 %."""
     coarse, middle, fine = (wear(contact(f"sprocket.nodes={nodes}")).cycles[-1] for nodes in (301, 601, 1201))
@@ -318,6 +320,7 @@ def test_nodes_do_not_matter() -> None:
     assert middle == pytest.approx(fine, rel=0.005)
 
 
+@pytest.mark.wide
 def test_cycle_by_cycle() -> None:
     """Every revolution of a life of about 1200 against steps by depth."""
     of, factor = replace(contact("mechanism.phases=2"), elongation_per_cycle=2e-6), 1e4
