@@ -16,7 +16,7 @@ from wearsim.kernels.controlled_steps import (
     between,
     wear_in_steps,
 )
-from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RUNNING, flank_rate
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, LOAD, RELATIVE, RUNNING, flank_rate
 from wearsim.kernels.signatures import (
     CONTACT_FUNCTION,
     CUBE,
@@ -47,7 +47,7 @@ def widest(work: Vector) -> float:
     """Return the greatest load over relative curvature after ``flank_rate``."""
     greatest = 0.0
     for j in range(work.shape[1]):
-        greatest = max(greatest, work[4, j] / work[7, j] if work[4, j] > 0.0 else 0.0)
+        greatest = max(greatest, work[LOAD, j] / work[RELATIVE, j] if work[LOAD, j] > 0.0 else 0.0)
     return greatest
 
 

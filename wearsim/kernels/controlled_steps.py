@@ -9,13 +9,27 @@ from wearsim.kernels.compiled import kernel
 from wearsim.kernels.hertz_wear import (
     BROKEN,
     CONFORMING,
+    CURVATURE,
+    DEPTH,
     DEPTH_REACHED,
     HORIZON,
+    NORMAL_X,
+    NORMAL_Y,
+    PATH_CURVATURE,
+    PATH_NORMAL_X,
+    PATH_NORMAL_Y,
+    PATH_RELATIVE,
+    RATE,
+    RELATIVE,
     RUNNING,
     SAWTOOTH,
+    WORN,
+    X,
+    Y,
     flank_rate,
     sawtooth,
 )
+from wearsim.kernels.severity import CASE_DEPTH, CORE_FACTOR
 from wearsim.kernels.signatures import (
     CONTACT_FUNCTION,
     CUBE,
@@ -64,11 +78,11 @@ def between(start: Vector, end: Vector, step: float, row: int, part: float, poin
     at most three times the mean (Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238).
     """
     if row == 2:
-        greatest = 3.0 * (end[2, point] - start[2, point]) / step
-        slope, slope_end = min(start[3, point], greatest), min(end[3, point], greatest)
+        greatest = 3.0 * (end[DEPTH, point] - start[DEPTH, point]) / step
+        slope, slope_end = min(start[RATE, point], greatest), min(end[RATE, point], greatest)
     else:
-        slope = -start[3, point] * start[4 + row, point]
-        slope_end = -end[3, point] * end[4 + row, point]
+        slope = -start[RATE, point] * start[PATH_NORMAL_X + row, point]
+        slope_end = -end[RATE, point] * end[PATH_NORMAL_X + row, point]
     rest = 1.0 - part
     value: float = rest * rest * (
         (1.0 + 2.0 * part) * start[row, point] + part * step * slope
@@ -98,15 +112,15 @@ def part_to_depth(start: Vector, end: Vector, step: float, limit: float) -> floa
     """
     first, deepest, points = 1.0, 0, start.shape[1]
     for j in range(points):
-        deepest = j if end[2, j] > end[2, deepest] else deepest
+        deepest = j if end[DEPTH, j] > end[DEPTH, deepest] else deepest
     for i in range(points):
         j = (deepest + i) % points
-        if end[2, j] < limit or between(start, end, step, 2, first, j) < limit:
+        if end[DEPTH, j] < limit or between(start, end, step, DEPTH, first, j) < limit:
             continue
         low, high = 0.0, first
         middle = 0.5 * (low + high)
         while low < middle < high:
-            if between(start, end, step, 2, middle, j) < limit:
+            if between(start, end, step, DEPTH, middle, j) < limit:
                 low = middle
             else:
                 high = middle
@@ -121,9 +135,10 @@ def write_state(state: Vector, work: Vector, clock: Vector, times: Vector, path:
     place = int(clock[WRITTEN]) % times.size
     here = path[place]
     for j in range(state.shape[1]):
-        here[0, j], here[1, j], here[2, j] = state[0, j], state[1, j], state[2, j]
-        here[3, j], here[4, j], here[5, j] = work[8, j], work[0, j], work[1, j]
-        here[6, j], here[7, j] = work[7, j], work[2, j]
+        here[X, j], here[Y, j], here[DEPTH, j] = state[X, j], state[Y, j], state[DEPTH, j]
+        here[RATE, j] = work[WORN, j]
+        here[PATH_NORMAL_X, j], here[PATH_NORMAL_Y, j] = work[NORMAL_X, j], work[NORMAL_Y, j]
+        here[PATH_RELATIVE, j], here[PATH_CURVATURE, j] = work[RELATIVE, j], work[CURVATURE, j]
     times[place] = clock[TIME]
     clock[WRITTEN] += 1.0
     return place
@@ -138,9 +153,9 @@ def copy_removed(start: Vector, state: Vector, step: float) -> int:
     """
     gained = 0
     for j in range(state.shape[1]):
-        if state[2, j] < start[2, j]:
-            gained += 1 if start[2, j] - state[2, j] > 0.1 * step * start[3, j] else 0
-            state[0, j], state[1, j], state[2, j] = start[0, j], start[1, j], start[2, j]
+        if state[DEPTH, j] < start[DEPTH, j]:
+            gained += 1 if start[DEPTH, j] - state[DEPTH, j] > 0.1 * step * start[RATE, j] else 0
+            state[X, j], state[Y, j], state[DEPTH, j] = start[X, j], start[Y, j], start[DEPTH, j]
     return gained
 
 
@@ -152,12 +167,12 @@ def part_to_layer(start: Vector, state: Vector, law: Vector, allowed: float) -> 
     below as if it were hard is at most half of what is allowed there.
     """
     part = 1.0
-    if law[5] != 1.0:
-        below = allowed / abs(law[5] - 1.0)
+    if law[CORE_FACTOR] != 1.0:
+        below = allowed / abs(law[CORE_FACTOR] - 1.0)
         for j in range(state.shape[1]):
-            if start[2, j] <= law[4] and state[2, j] > law[4] + below:
-                way = law[4] + 0.5 * below - start[2, j]
-                part = min(part, way / (state[2, j] - start[2, j]))
+            if start[DEPTH, j] <= law[CASE_DEPTH] and state[DEPTH, j] > law[CASE_DEPTH] + below:
+                way = law[CASE_DEPTH] + 0.5 * below - start[DEPTH, j]
+                part = min(part, way / (state[DEPTH, j] - start[DEPTH, j]))
     return part
 
 
@@ -165,15 +180,15 @@ def part_to_layer(start: Vector, state: Vector, law: Vector, allowed: float) -> 
 def pass_layer(start: Vector, state: Vector, law: Vector) -> None:
     """Let what a point has gone below the hardened layer in a step wear as the core does.
 
-    The step has taken it for hard to its end; the way below the layer is ``law[5]`` times as long.
+    The step has taken it for hard to its end; the way below the layer is ``law[CORE_FACTOR]`` times as long.
     """
-    if law[5] != 1.0:
+    if law[CORE_FACTOR] != 1.0:
         for j in range(state.shape[1]):
-            if start[2, j] <= law[4] < state[2, j]:
-                more = (law[5] - 1.0) * (state[2, j] - law[4])
-                state[0, j] -= more * start[4, j]
-                state[1, j] -= more * start[5, j]
-                state[2, j] += more
+            if start[DEPTH, j] <= law[CASE_DEPTH] < state[DEPTH, j]:
+                more = (law[CORE_FACTOR] - 1.0) * (state[DEPTH, j] - law[CASE_DEPTH])
+                state[X, j] -= more * start[PATH_NORMAL_X, j]
+                state[Y, j] -= more * start[PATH_NORMAL_Y, j]
+                state[DEPTH, j] += more
 
 
 @kernel(
@@ -229,18 +244,18 @@ def wear_in_steps(
     and ``work`` are then those that failed. The step is handed in like the contact: linked
     in, it would be compiled twice.
     """
-    status = flank_rate(contact, state, state[2], constants, columns, modulus, law, work)
+    status = flank_rate(contact, state, state[DEPTH], constants, columns, modulus, law, work)
     clock[RATES] += 1.0
     if clock[TIME] == 0.0:
         fastest = 0.0
         for j in range(state.shape[1]):
-            fastest = max(fastest, work[8, j])
+            fastest = max(fastest, work[WORN, j])
         clock[STEP] = FIRST_STEP * tolerance ** (1.0 / 3.0) * depth_limit / fastest
     while True:
         place = write_state(state, work, clock, times, path)
         here, deepest = path[place], 0.0
         for j in range(state.shape[1]):
-            deepest = max(deepest, state[2, j])
+            deepest = max(deepest, state[DEPTH, j])
         if deepest >= depth_limit:
             before = (place - 1) % times.size
             step = times[place] - times[before]
@@ -253,7 +268,7 @@ def wear_in_steps(
         clock[END] = clock[TIME]
         if status != RUNNING:
             return status
-        if sawtooth(state[2], depth_limit) >= 0:
+        if sawtooth(state[DEPTH], depth_limit) >= 0:
             return SAWTOOTH
         if clock[WRITTEN] >= most_states:
             return RUNNING
@@ -280,7 +295,7 @@ def wear_in_steps(
                 part = part_to_layer(here, state, law, tolerance * depth_limit)
             if error <= 1.0 and part == 1.0:
                 pass_layer(here, state, law)
-                status = flank_rate(contact, state, state[2], constants, columns, modulus, law, work)
+                status = flank_rate(contact, state, state[DEPTH], constants, columns, modulus, law, work)
             clock[RATES] += 5.0
             if error <= 1.0 and part == 1.0 and status not in (CONFORMING, BROKEN):
                 break

@@ -11,8 +11,18 @@ from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 if TYPE_CHECKING:
     from wearsim.kernels.signatures import Vector
 
-CONVERGED, NOT_CONVERGED, OUT_OF_REACH, INVALID = 0, 1, 2, 3
-WORK_ROWS = 14
+CONVERGED, NOT_CONVERGED, OUT_OF_REACH, INVALID = range(4)
+
+_GAP, _COSINE, _SINE, _WEAR, _MOBILITY, _FORCE, _DEFORMED, _STEP, _RESPONSE, _PRESSED = range(10)
+_TRIAL, _TRIAL_DEFORMED, _COMPLIANCE, _RECESS, WORK_ROWS = range(10, 15)
+"""Rows of the table to work in, and their number."""
+
+_CENTRE_X, _CENTRE_Y, _RADIUS, _ALONG_X, _ALONG_Y, _LOAD, _TOLERANCE, _MOST_ITERATIONS = range(8)
+"""Places of what is constant: the roller, the direction in which it is pressed, and when to end."""
+
+_APPROACH, _ERROR, _BALANCE, _CHANGED, _FIRST, _LAST, _ITERATIONS = range(7)
+"""Places of the result; the first four are the state of the solver."""
+
 SMALLEST_COSINE = 0.2
 _ENDLESS = 1e100
 _ROUNDING = 1e-14
@@ -55,10 +65,10 @@ def roller_gap(
     A cell steeper than ``SMALLEST_COSINE`` is out of reach: cosine zero, endless gap. Returns
     the approach gap/cosine at which the first cell touches, endless where none can.
     """
-    radius, along_x, along_y = constants[2], constants[3], constants[4]
+    radius, along_x, along_y = constants[_RADIUS], constants[_ALONG_X], constants[_ALONG_Y]
     level = _ENDLESS
     for j in range(x.size):
-        to_x, to_y = constants[0] - x[j], constants[1] - y[j]
+        to_x, to_y = constants[_CENTRE_X] - x[j], constants[_CENTRE_Y] - y[j]
         distance = math.sqrt(to_x * to_x + to_y * to_y)
         gap[j], cosine[j], sine[j] = _ENDLESS, 0.0, 0.0
         if to_x * along_x + to_y * along_y > SMALLEST_COSINE * distance:
@@ -177,7 +187,12 @@ def imbalance(
         largest = max(largest, force[j])
         step = max(step, abs(left) * mobility[j] * now)
         balance += left * left * mobility[j] * now
-    state[0], state[1], state[2], state[3] = approach, step / largest, balance, changed
+    state[_APPROACH], state[_ERROR], state[_BALANCE], state[_CHANGED] = (
+        approach,
+        step / largest,
+        balance,
+        changed,
+    )
 
 
 @kernel(float64(VECTOR, VECTOR, VECTOR))
@@ -208,8 +223,8 @@ def first_force(
     load times (approach - level) is at most twice that. Returns 1 where the guess was made.
     """
     n, guessed = width.size, 0
-    gap, cosine, sine, wear = work[0][0:n], work[1][0:n], work[2][0:n], work[3][0:n]
-    force, displaced = work[5][0:n], work[6][0:n]
+    gap, cosine, sine, wear = work[_GAP][0:n], work[_COSINE][0:n], work[_SINE][0:n], work[_WEAR][0:n]
+    force, displaced = work[_FORCE][0:n], work[_DEFORMED][0:n]
     for j in range(n):
         usable = cosine[j] > 0.0 and pressure[j] > 0.0 and pressure[j] < _ENDLESS
         force[j] = pressure[j] * width[j] if usable else 0.0
@@ -256,15 +271,19 @@ def balance_forces(
     set of cells comes back. Returns the iterations; ``state`` as `imbalance` leaves it.
     """
     gap, cosine, sine, wear = (
-        work[0][first:last],
-        work[1][first:last],
-        work[2][first:last],
-        work[3][first:last],
+        work[_GAP][first:last],
+        work[_COSINE][first:last],
+        work[_SINE][first:last],
+        work[_WEAR][first:last],
     )
-    mobility, force, deformed = work[4][first:last], work[5][first:last], work[6][first:last]
-    step, response, pressed = work[7][first:last], work[8][first:last], work[9][first:last]
-    trial, trial_deformed = work[10][first:last], work[11][first:last]
-    load, tolerance, limit = constants[5], constants[6], int(constants[7])
+    mobility, force, deformed = (
+        work[_MOBILITY][first:last],
+        work[_FORCE][first:last],
+        work[_DEFORMED][first:last],
+    )
+    step, response, pressed = work[_STEP][first:last], work[_RESPONSE][first:last], work[_PRESSED][first:last]
+    trial, trial_deformed = work[_TRIAL][first:last], work[_TRIAL_DEFORMED][first:last]
+    load, tolerance, limit = constants[_LOAD], constants[_TOLERANCE], int(constants[_MOST_ITERATIONS])
     n, before, restart = last - first, 0.0, True
     displacement(force, cosine, sine, wear, coefficients, deformed)
     for j in range(n):
@@ -273,17 +292,17 @@ def balance_forces(
         pressed[j] = 0.0
     for iteration in range(limit):
         imbalance(force, deformed, cosine, mobility, pressed, state)
-        if not state[1] > tolerance:
+        if not state[_ERROR] > tolerance:
             return iteration
-        keep = 0.0 if restart or state[3] > 0.0 else state[2] / before
-        before = state[2]
+        keep = 0.0 if restart or state[_CHANGED] > 0.0 else state[_BALANCE] / before
+        before = state[_BALANCE]
         for j in range(n):
-            left = deformed[j] - state[0] * cosine[j]
+            left = deformed[j] - state[_APPROACH] * cosine[j]
             step[j] = (keep * step[j] - mobility[j] * left) * pressed[j]
         displacement(step, cosine, sine, wear, coefficients, response)
         downhill, stiffness, reach = 0.0, 0.0, _ENDLESS
         for j in range(n):
-            downhill -= step[j] * (deformed[j] - state[0] * cosine[j])
+            downhill -= step[j] * (deformed[j] - state[_APPROACH] * cosine[j])
             stiffness += step[j] * response[j]
             if step[j] < 0.0:
                 reach = min(reach, -force[j] / step[j])
@@ -350,9 +369,9 @@ def line_contact(
 
     Equation physics.md (W10), of m = 1.
     """
-    n, load = x.size, constants[5]
-    gap, cosine, sine, wear = work[0][0:n], work[1][0:n], work[2][0:n], work[3][0:n]
-    mobility, force = work[4][0:n], work[5][0:n]
+    n, load = x.size, constants[_LOAD]
+    gap, cosine, sine, wear = work[_GAP][0:n], work[_COSINE][0:n], work[_SINE][0:n], work[_WEAR][0:n]
+    mobility, force = work[_MOBILITY][0:n], work[_FORCE][0:n]
     faults = 0 if load >= 0.0 else 1
     for i in range(constants.size):
         faults += 0 if abs(constants[i]) < _ENDLESS else 1
@@ -361,7 +380,7 @@ def line_contact(
         sound = size < _ENDLESS and width[j] > 0.0 and wear_compliance[j] >= 0.0
         faults += 0 if sound else 1
     for j in range(n):
-        work[10][j] = pressure[j]
+        work[_TRIAL][j] = pressure[j]
         pressure[j] = 0.0
     for i in range(result.size):
         result[i] = 0.0
@@ -369,19 +388,19 @@ def line_contact(
         return INVALID
     level = roller_gap(x, y, recess, constants, gap, cosine, sine)
     if level == _ENDLESS or load == 0.0:
-        result[0] = level
+        result[_APPROACH] = level
         return OUT_OF_REACH if level == _ENDLESS else CONVERGED
     local = local_compliance(coefficients)
     for j in range(n):
         wear[j] = wear_compliance[j] / width[j]
         mobility[j] = 1.0 / (wear[j] + local)
-    first_force(work[10], width, coefficients, level, load, work, result[4:6])
-    first, last = int(result[4]), int(result[5])
-    result[6] = balance_forces(coefficients, constants, work, first, last, result[0:4])
+    first_force(work[_TRIAL], width, coefficients, level, load, work, result[_FIRST:_ITERATIONS])
+    first, last = int(result[_FIRST]), int(result[_LAST])
+    result[_ITERATIONS] = balance_forces(coefficients, constants, work, first, last, result[:_FIRST])
     scale_to_load(force, cosine, load)
     for j in range(n):
         pressure[j] = force[j] / width[j]
-    return CONVERGED if result[1] <= constants[6] else NOT_CONVERGED
+    return CONVERGED if result[_ERROR] <= constants[_TOLERANCE] else NOT_CONVERGED
 
 
 @kernel(int64(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR, TABLE, VECTOR))
@@ -407,8 +426,8 @@ def power_contact(
 
     Equation physics.md (W10).
     """
-    n, load = x.size, constants[5]
-    compliance, recess = work[12][0:n], work[13][0:n]
+    n, load = x.size, constants[_LOAD]
+    compliance, recess = work[_COMPLIANCE][0:n], work[_RECESS][0:n]
     iterations, floor, status = 0.0, 0.0, INVALID
     for turn in range(40):
         carried, squared = 0.0, 0.0
@@ -429,7 +448,7 @@ def power_contact(
         status = line_contact(
             x, y, width, compliance, recess, coefficients, constants, pressure, work, result
         )
-        iterations += result[6]
+        iterations += result[_ITERATIONS]
         if status != CONVERGED and status != NOT_CONVERGED:
             break
         misfit, largest = 0.0, 0.0
@@ -437,10 +456,10 @@ def power_contact(
             if pressure[j] > 0.0:
                 worn = wear_factor[j] * pressure[j] ** exponent
                 tangent = recess[j] + compliance[j] * pressure[j]
-                misfit = max(misfit, (worn - tangent) * work[4][j])
+                misfit = max(misfit, (worn - tangent) * work[_MOBILITY][j])
                 largest = max(largest, pressure[j] * width[j])
-        if status == CONVERGED and not misfit > constants[6] * largest:
+        if status == CONVERGED and not misfit > constants[_TOLERANCE] * largest:
             break
         status, floor = NOT_CONVERGED, 0.1 * floor
-    result[6] = iterations
+    result[_ITERATIONS] = iterations
     return status

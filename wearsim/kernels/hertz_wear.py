@@ -7,13 +7,29 @@ from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.flank_geometry import flank_frame
-from wearsim.kernels.severity import KIND, NONE, make_severe
+from wearsim.kernels.severity import (
+    CASE_DEPTH,
+    COEFFICIENT,
+    CORE_FACTOR,
+    KIND,
+    LOAD_EXPONENT,
+    NONE,
+    PRESSURE_EXPONENT,
+    SPEED_EXPONENT,
+    make_severe,
+)
 from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from wearsim.kernels.signatures import Vector
+
+X, Y, DEPTH, RATE, PATH_NORMAL_X, PATH_NORMAL_Y, PATH_RELATIVE, PATH_CURVATURE = range(8)
+"""Rows of a state: points and depth, and on the path also what the contact made of them."""
+
+NORMAL_X, NORMAL_Y, CURVATURE, SPACING_SQUARED, LOAD, SLIP, SPEED, RELATIVE, WORN = range(9)
+"""Rows of the table to work in: frame of the flank, contact, and the depth worn off in a cycle."""
 
 RUNNING, DEPTH_REACHED, UNSTABLE, CONFORMING, VANISHED, BROKEN, HORIZON, SAWTOOTH = range(8)
 
@@ -24,14 +40,13 @@ def wear_depth(
 ) -> None:
     """Write the depth worn off in one cycle at every point.
 
-    ``law``: factor, pressure exponent, load exponent (0 or 1), speed exponent:
-    depth = factor pressure^a load^b slip speed^n, zero where the load is zero. The Hertz pressure,
-    a root, is found in the place of the depth, and only where the law asks for it. What makes wear severe
-    follows: its kind, limit and factor.
+    depth = coefficient pressure^a load^b slip speed^n, b 0 or 1, zero where the load is zero; what makes wear
+    severe follows. The Hertz pressure, a root, is found in the place of the depth, and only where the law
+    asks for it.
 
     Equations physics.md (C2) and (L1) or (L3).
     """
-    n, factor, exponent = load.size, law[0], law[1]
+    n, factor, exponent = load.size, law[COEFFICIENT], law[PRESSURE_EXPONENT]
     if exponent == 0.0:
         for j in range(n):
             depth[j] = factor
@@ -47,10 +62,10 @@ def wear_depth(
     elif exponent != 0.0:
         for j in range(n):
             depth[j] = depth[j] ** exponent * factor
-    if law[3] != 0.0:
+    if law[SPEED_EXPONENT] != 0.0:
         for j in range(n):
-            depth[j] *= speed[j] ** law[3] if speed[j] > 0.0 else 0.0
-    if law[2] != 0.0:
+            depth[j] *= speed[j] ** law[SPEED_EXPONENT] if speed[j] > 0.0 else 0.0
+    if law[LOAD_EXPONENT] != 0.0:
         for j in range(n):
             depth[j] = depth[j] * load[j] * slip[j] if load[j] > 0.0 else 0.0
     else:
@@ -62,10 +77,10 @@ def wear_depth(
 
 @kernel(void(VECTOR, VECTOR, VECTOR))
 def soften_edges(depth: Vector, law: Vector, step: Vector) -> None:
-    """Multiply the steps of points below the hardened layer, ``law[4]`` deep, by ``law[5]``."""
-    if law[5] != 1.0:
+    """Multiply the steps of points below the hardened layer by the factor of the core."""
+    if law[CORE_FACTOR] != 1.0:
         for j in range(depth.size):
-            step[j] *= law[5] if depth[j] > law[4] else 1.0
+            step[j] *= law[CORE_FACTOR] if depth[j] > law[CASE_DEPTH] else 1.0
 
 
 @kernel(int64(VECTOR, VECTOR, VECTOR, VECTOR, float64))
@@ -111,27 +126,25 @@ def flank_rate(
     """Write the depth that each point of a state (x, y, depth) loses in a cycle; tell its status.
 
     ``layer``: the depths that tell whether a point is below the hardened layer.
-    ``work``, 9 rows: normals, curvature, squared spacing, load, slip, speed, relative
-    curvature, depth per cycle.
     """
-    flank_frame(state[0], state[1], work[0], work[1], work[2], work[3])
+    flank_frame(state[X], state[Y], work[NORMAL_X], work[NORMAL_Y], work[CURVATURE], work[SPACING_SQUARED])
     contact(
-        state[0],
-        state[1],
-        work[0],
-        work[1],
-        work[2],
-        state[2],
+        state[X],
+        state[Y],
+        work[NORMAL_X],
+        work[NORMAL_Y],
+        work[CURVATURE],
+        state[DEPTH],
         constants,
         columns,
-        work[4],
-        work[5],
-        work[6],
-        work[7],
+        work[LOAD],
+        work[SLIP],
+        work[SPEED],
+        work[RELATIVE],
     )
-    wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8])
-    soften_edges(layer, law, work[8])
-    return update_status(work[4], work[7], work[8], work[3], 0.0)
+    wear_depth(work[LOAD], work[SLIP], work[SPEED], work[RELATIVE], modulus, law, work[WORN])
+    soften_edges(layer, law, work[WORN])
+    return update_status(work[LOAD], work[RELATIVE], work[WORN], work[SPACING_SQUARED], 0.0)
 
 
 @kernel(int64(VECTOR, float64))

@@ -6,8 +6,26 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
-from wearsim.kernels.hertz_wear import DEPTH_REACHED, RUNNING, soften_edges, update_status
-from wearsim.kernels.severity import KIND, NONE, make_severe
+from wearsim.kernels.hertz_wear import (
+    DEPTH_REACHED,
+    RELATIVE,
+    RUNNING,
+    SPACING_SQUARED,
+    WORN,
+    soften_edges,
+    update_status,
+)
+from wearsim.kernels.hertz_wear import NORMAL_X as WORK_NORMAL_X
+from wearsim.kernels.hertz_wear import NORMAL_Y as WORK_NORMAL_Y
+from wearsim.kernels.severity import (
+    COEFFICIENT,
+    KIND,
+    LOAD_EXPONENT,
+    NONE,
+    PRESSURE_EXPONENT,
+    SPEED_EXPONENT,
+    make_severe,
+)
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
@@ -34,33 +52,33 @@ def prepare_offset(
     cycles_per_update: float,
     work: Vector,
 ) -> None:
-    """Write what no update changes: rows 0, 1, 3 of ``work`` and those named here."""
+    """Write what no update changes: normals, spacing and the rows named here."""
     arc, n = columns[ARC], columns.shape[1]
     for j in range(n):
         work[START, j] = depth[j]
-        work[0, j], work[1, j] = columns[NORMAL_X, j], columns[NORMAL_Y, j]
+        work[WORK_NORMAL_X, j], work[WORK_NORMAL_Y, j] = columns[NORMAL_X, j], columns[NORMAL_Y, j]
         work[BASE, j] = constants[0] + columns[CURVATURE, j]
         work[STRESS, j] = columns[LOAD, j] * (modulus / math.pi)
         before = arc[max(j, 1)] - arc[max(j, 1) - 1]
         after = arc[min(j, n - 2) + 1] - arc[min(j, n - 2)]
         inner = 2.0 / (before + after) if 0 < j < n - 1 else 0.0
         work[BEFORE, j], work[AFTER, j] = inner / before, inner / after
-        work[3, j] = min(before, after) ** 2
-        limit = work[3, j] / (2.0 * diffusion) if diffusion > 0.0 else math.inf
+        work[SPACING_SQUARED, j] = min(before, after) ** 2
+        limit = work[SPACING_SQUARED, j] / (2.0 * diffusion) if diffusion > 0.0 else math.inf
         work[ALLOWED, j] = limit if columns[LOAD, j] > 0.0 else 0.0
-        amount = law[0] * cycles_per_update * columns[SLIP, j]
-        if law[3] != 0.0:
-            amount *= columns[SPEED, j] ** law[3] if columns[SPEED, j] > 0.0 else 0.0
-        if law[2] != 0.0:
+        amount = law[COEFFICIENT] * cycles_per_update * columns[SLIP, j]
+        if law[SPEED_EXPONENT] != 0.0:
+            amount *= columns[SPEED, j] ** law[SPEED_EXPONENT] if columns[SPEED, j] > 0.0 else 0.0
+        if law[LOAD_EXPONENT] != 0.0:
             amount *= columns[LOAD, j]
         work[AMOUNT, j] = amount if columns[LOAD, j] > 0.0 else 0.0
 
 
 @kernel(void(VECTOR, float64, TABLE))
 def offset_step(depth: Vector, exponent: float, work: Vector) -> None:
-    """Write relative curvature (row 7) and depth of an update (row 8)."""
+    """Write relative curvature and depth of an update."""
     before, after, base = work[BEFORE], work[AFTER], work[BASE]
-    stress, amount, relative, step = work[STRESS], work[AMOUNT], work[7], work[8]
+    stress, amount, relative, step = work[STRESS], work[AMOUNT], work[RELATIVE], work[WORN]
     n = depth.size
     relative[0], relative[n - 1] = base[0], base[n - 1]
     for j in range(1, n - 1):
@@ -80,7 +98,7 @@ def offset_step(depth: Vector, exponent: float, work: Vector) -> None:
 @kernel(int64(TABLE))
 def offset_failures(work: Vector) -> int:
     """Count the points at which an update may not be made, or is none at all."""
-    relative, step, allowed = work[7], work[8], work[ALLOWED]
+    relative, step, allowed = work[RELATIVE], work[WORN], work[ALLOWED]
     failures = 0
     for j in range(work.shape[1]):
         failures += 0 if step[j] <= allowed[j] * relative[j] else 1
@@ -126,13 +144,13 @@ def run_offset_cycles(
     ``work``: `OFFSET_ROWS` rows.
     """
     prepare_offset(depth, constants, columns, modulus, law, diffusion, cycles_per_update, work)
-    step, n, made = work[8], depth.size, 0
+    step, n, made = work[WORN], depth.size, 0
     severe = law[KIND] != NONE
-    offset_step(depth, law[1], work)
+    offset_step(depth, law[PRESSURE_EXPONENT], work)
     if severe:
-        make_severe(columns[LOAD], columns[SLIP], columns[SPEED], work[7], modulus, law, step)
+        make_severe(columns[LOAD], columns[SLIP], columns[SPEED], work[RELATIVE], modulus, law, step)
     soften_edges(depth, law, step)
-    status = update_status(columns[LOAD], work[7], step, work[3], diffusion)
+    status = update_status(columns[LOAD], work[RELATIVE], step, work[SPACING_SQUARED], diffusion)
     while status == RUNNING and made < updates:
         made += 1
         reached = 0
@@ -142,14 +160,14 @@ def run_offset_cycles(
         if reached > 0:
             status = DEPTH_REACHED
         elif made < updates:
-            offset_step(depth, law[1], work)
+            offset_step(depth, law[PRESSURE_EXPONENT], work)
             if severe:
-                make_severe(columns[LOAD], columns[SLIP], columns[SPEED], work[7], modulus, law, step)
+                make_severe(columns[LOAD], columns[SLIP], columns[SPEED], work[RELATIVE], modulus, law, step)
             soften_edges(depth, law, step)
             if offset_failures(work) > 0:
-                status = update_status(columns[LOAD], work[7], step, work[3], diffusion)
+                status = update_status(columns[LOAD], work[RELATIVE], step, work[SPACING_SQUARED], diffusion)
     for j in range(n):  # (10), summed: the normal is that of the new flank
-        x[j] -= (depth[j] - work[START, j]) * work[0, j]
-        y[j] -= (depth[j] - work[START, j]) * work[1, j]
+        x[j] -= (depth[j] - work[START, j]) * work[WORK_NORMAL_X, j]
+        y[j] -= (depth[j] - work[START, j]) * work[WORK_NORMAL_Y, j]
     done[0] = made
     return status

@@ -6,7 +6,22 @@ from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.flank_geometry import flank_frame
-from wearsim.kernels.hertz_wear import DEPTH_REACHED, RUNNING, soften_edges, update_status, wear_depth
+from wearsim.kernels.hertz_wear import (
+    CURVATURE,
+    DEPTH_REACHED,
+    LOAD,
+    NORMAL_X,
+    NORMAL_Y,
+    RELATIVE,
+    RUNNING,
+    SLIP,
+    SPACING_SQUARED,
+    SPEED,
+    WORN,
+    soften_edges,
+    update_status,
+    wear_depth,
+)
 from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64
 
 if TYPE_CHECKING:
@@ -62,9 +77,10 @@ def run_cycles(
     normals, curvature, squared spacing, load, slip, speed, relative curvature
     and the depth of the last update.
     """
-    normal_x, normal_y, curvature, spacing_squared = work[0], work[1], work[2], work[3]
-    load, slip, speed, relative = work[4], work[5], work[6], work[7]
-    step, n = work[8], x.size
+    normal_x, normal_y, curvature = work[NORMAL_X], work[NORMAL_Y], work[CURVATURE]
+    spacing_squared = work[SPACING_SQUARED]
+    load, slip, speed, relative = work[LOAD], work[SLIP], work[SPEED], work[RELATIVE]
+    step, n = work[WORN], x.size
     done[0] = 0.0
     for update in range(updates):
         flank_frame(x, y, normal_x, normal_y, curvature, spacing_squared)

@@ -13,7 +13,29 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
-from wearsim.kernels.hertz_wear import BROKEN, CONFORMING, flank_rate, soften_edges, wear_depth
+from wearsim.kernels.hertz_wear import (
+    BROKEN,
+    CONFORMING,
+    CURVATURE,
+    DEPTH,
+    LOAD,
+    NORMAL_X,
+    NORMAL_Y,
+    PATH_CURVATURE,
+    PATH_NORMAL_X,
+    PATH_NORMAL_Y,
+    PATH_RELATIVE,
+    RATE,
+    RELATIVE,
+    SLIP,
+    SPEED,
+    WORN,
+    X,
+    Y,
+    flank_rate,
+    soften_edges,
+    wear_depth,
+)
 from wearsim.kernels.signatures import CONTACT_FUNCTION, STEP, TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.tridiagonal import factorise, solve
 
@@ -22,8 +44,8 @@ if TYPE_CHECKING:
 
     from wearsim.kernels.signatures import Vector
 
-WORK_ROWS = 18
-"""Of the table to work in; its first nine are those of ``flank_rate``."""
+SLOPE, WORK_ROWS = 9, 18
+"""Row of d(rate)/d(slope) in the table to work in, after those of ``flank_rate``, and the number of rows."""
 
 GAMMA = 4.3586652150845900e-01
 """Diagonal of the method, the root of x^3 - 3 x^2 + 3 x/2 - 1/6 that makes it L-stable."""
@@ -82,34 +104,34 @@ def slope_rate(
     law: Vector,
     work: Vector,
 ) -> None:
-    """Write d(rate)/d(slope of the depth) of every point to ``work[9]``: the normals turn by the slope.
+    """Write d(rate)/d(slope of the depth) of every point to ``work[SLOPE]``: the normals turn by the slope.
 
     The contact is asked with all normals of a state of the path turned towards the tip.
     """
     n = start.shape[1]
     for j in range(n):
-        work[0, j] = start[4, j] - TURN * start[5, j]
-        work[1, j] = start[5, j] + TURN * start[4, j]
-        work[2, j] = start[7, j]
+        work[NORMAL_X, j] = start[PATH_NORMAL_X, j] - TURN * start[PATH_NORMAL_Y, j]
+        work[NORMAL_Y, j] = start[PATH_NORMAL_Y, j] + TURN * start[PATH_NORMAL_X, j]
+        work[CURVATURE, j] = start[PATH_CURVATURE, j]
     contact(
-        start[0],
-        start[1],
-        work[0],
-        work[1],
-        work[2],
-        start[2],
+        start[X],
+        start[Y],
+        work[NORMAL_X],
+        work[NORMAL_Y],
+        work[CURVATURE],
+        start[DEPTH],
         constants,
         columns,
-        work[4],
-        work[5],
-        work[6],
-        work[7],
+        work[LOAD],
+        work[SLIP],
+        work[SPEED],
+        work[RELATIVE],
     )
-    wear_depth(work[4], work[5], work[6], work[7], modulus, law, work[8])
-    soften_edges(start[2], law, work[8])
+    wear_depth(work[LOAD], work[SLIP], work[SPEED], work[RELATIVE], modulus, law, work[WORN])
+    soften_edges(start[DEPTH], law, work[WORN])
     for j in range(n):
-        moved = (work[8, j] - start[3, j]) / TURN
-        work[9, j] = moved if start[3, j] > 0.0 and abs(moved) < math.inf else 0.0
+        moved = (work[WORN, j] - start[RATE, j]) / TURN
+        work[SLOPE, j] = moved if start[RATE, j] > 0.0 and abs(moved) < math.inf else 0.0
 
 
 @kernel(void(TABLE, VECTOR, float64, int64, TABLE))
@@ -124,7 +146,7 @@ def wear_rows(start: Vector, slope: Vector, diffusion: float, ends: int, rows: V
 
     Equation physics.md (A4).
     """
-    x, y, rate, relative = start[0], start[1], start[3], start[6]
+    x, y, rate, relative = start[X], start[Y], start[RATE], start[PATH_RELATIVE]
     before, centre, after, spacing = rows[0], rows[1], rows[2], rows[3]
     n = x.size
     for j in range(n - 1):
@@ -178,15 +200,15 @@ def stage_increment(
     """Write the increment of a stage from the rate there.
 
     The matrix acts along the normals at the start of the step (``start``: a state of the
-    path), on the depth along them; ``work[9]`` takes that part of the increment.
+    path), on the depth along them; ``work[SLOPE]`` takes that part of the increment.
     """
-    normal_x, normal_y, part = start[4], start[5], work[9]
+    normal_x, normal_y, part = start[PATH_NORMAL_X], start[PATH_NORMAL_Y], work[SLOPE]
     n, own = normal_x.size, increments[stage]
     x, y, depth = own[:n], own[n : 2 * n], own[2 * n :]
     for j in range(n):
-        depth[j] = GAMMA * step * work[8, j]
-        x[j] = -depth[j] * work[0, j]
-        y[j] = -depth[j] * work[1, j]
+        depth[j] = GAMMA * step * work[WORN, j]
+        x[j] = -depth[j] * work[NORMAL_X, j]
+        y[j] = -depth[j] * work[NORMAL_Y, j]
     for s in range(stage):
         weight, other = GAMMA * RIGHT[3 * stage + s], increments[s]
         for j in range(own.size):
@@ -237,14 +259,15 @@ def rosenbrock_step(
     """
     rows, factors = work[10:14], work[14:18]
     slope_rate(contact, start, constants, columns, modulus, law, work)
-    wear_rows(start, work[9], diffusion, ends, rows)
+    wear_rows(start, work[SLOPE], diffusion, ends, rows)
     factorise(rows, GAMMA * step, factors)
     for j in range(start.shape[1]):
-        work[8, j], work[0, j], work[1, j] = start[3, j], start[4, j], start[5, j]
+        work[WORN, j] = start[RATE, j]
+        work[NORMAL_X, j], work[NORMAL_Y, j] = start[PATH_NORMAL_X, j], start[PATH_NORMAL_Y, j]
     for stage in range(STAGES):
         if stage > 0:
             stage_state(start, increments, stage, trial)
-            status = flank_rate(contact, trial, start[2], constants, columns, modulus, law, work)
+            status = flank_rate(contact, trial, start[DEPTH], constants, columns, modulus, law, work)
             if status in (CONFORMING, BROKEN):
                 return math.nan
         stage_increment(start, stage, step, work, factors, increments)

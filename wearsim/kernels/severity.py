@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 NONE, BY_PRESSURE_SPEED, BY_T_GAMMA = 0.0, 1.0, 2.0
 """Kinds of severity."""
 
-KIND, LIMIT, FACTOR = 6, 7, 8
-"""Places of the severity in the numbers of a law."""
+COEFFICIENT, PRESSURE_EXPONENT, LOAD_EXPONENT, SPEED_EXPONENT, CASE_DEPTH, CORE_FACTOR = range(6)
+KIND, LIMIT, FACTOR = range(6, 9)
+"""Places of the numbers of a law, as ``WearLaw.numbers`` gives them; the last three are its severity."""
 
 TRANSITION = 0.1
 """Width of the transition as a part of the limit."""

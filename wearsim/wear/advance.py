@@ -34,7 +34,7 @@ from wearsim.kernels.controlled_steps import (
     states_between,
     wear_in_steps,
 )
-from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RUNNING, SAWTOOTH, VANISHED
+from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RATE, RUNNING, SAWTOOTH, VANISHED, WORN
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
 from wearsim.wear.law import WearLaw
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
@@ -215,8 +215,8 @@ class _Solve:
             raise no_sliding(cycles)
         if status == SAWTOOTH:
             check_sawtooth(contact, depth, cycles, self.problem.stop_limits[0].limit)
-        broken = ~np.isfinite(self.work[8])
-        place = contact.arc_length[int((broken if broken.any() else path[-1, 3]).argmax())]
+        broken = ~np.isfinite(self.work[WORN])
+        place = contact.arc_length[int((broken if broken.any() else path[-1, RATE]).argmax())]
         if status == RUNNING:
             raise _TooManyStepsError(
                 f"wear at cycle {cycles:.6g}: the solver must come to an end within {self.most} steps, but "

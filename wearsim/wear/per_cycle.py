@@ -20,7 +20,18 @@ from wearsim.contact.resting_engagement import RestingContact
 from wearsim.contact.stop_limits import StopLimit, first_limit_met
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile_points import Vector
-from wearsim.kernels.hertz_wear import BROKEN, CONFORMING, RUNNING, UNSTABLE, VANISHED
+from wearsim.kernels.hertz_wear import (
+    BROKEN,
+    CONFORMING,
+    NORMAL_X,
+    NORMAL_Y,
+    RELATIVE,
+    RUNNING,
+    SPACING_SQUARED,
+    UNSTABLE,
+    VANISHED,
+    WORN,
+)
 from wearsim.wear.law import WearLaw
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
 
@@ -90,7 +101,7 @@ class _CycleRun:
 
     @property
     def last_step(self) -> Vector:
-        return np.asarray(self.work[8])
+        return np.asarray(self.work[WORN])
 
     def wear(self, depth: float, updates: int) -> None:
         """Update until a depth is reached, at most so often; raise what the kernel found."""
@@ -132,7 +143,7 @@ class _CycleRun:
         return int(status)
 
     def _refuse(self) -> None:
-        spacing_squared, relative = self.work[3], self.work[7]
+        spacing_squared, relative = self.work[SPACING_SQUARED], self.work[RELATIVE]
         limits = spacing_squared * relative / (2.0 * self.diffusion)
         point = int(np.argmax(self.last_step / limits))
         step, limit = self.last_step[point], limits[point]
@@ -241,7 +252,7 @@ def _replay(run: _CycleRun, snapshot: tuple[float, Vector, Vector, Vector], star
 def _on_limit(run: _CycleRun, met: StopLimit) -> tuple[float, Vector, Vector, Vector]:
     """Interpolate the last update to the place where the margin vanishes."""
     step = run.last_step
-    x, y = run.x + step * run.work[0], run.y + step * run.work[1]
+    x, y = run.x + step * run.work[NORMAL_X], run.y + step * run.work[NORMAL_Y]
     depth = run.depth - step
     before, after = met.margin(x, y, depth), met.margin(run.x, run.y, run.depth)
     part = before / (before - after) if before > after else 1.0
