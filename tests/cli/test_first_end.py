@@ -80,6 +80,16 @@ def test_required_hours_name_the_mode(cli, file):
     assert cli("life", file, "--require-hours", 5000).code == 0
 
 
+def test_a_power_is_solved_for_by_what_ends_first(cli, file):
+    """Impact: hours as the power to the -2.5, as above, so 10 000 h at (5839/10 000)^0.4 of it."""
+    done = cli("life", file, "--require-hours", 10_000, "--solve-for", "load.power_kW", "--json")
+    assert done.code == 0, done.err
+    found = json.loads(done.out)
+    power = tables()["load"]["power_kW"] * (IMPACT / 10_000) ** 0.4
+    assert found["solve_for"]["value"] == pytest.approx(power, rel=1e-3)
+    assert found["first_end_hours"] == pytest.approx(10_000, rel=2e-3)
+
+
 def test_the_plan_replaces_the_chain_then(cli, file):
     plan = json.loads(cli("maintain", file, "--json").out)
     assert plan["parts"][0]["life_hours"] == pytest.approx(IMPACT, rel=1e-3)

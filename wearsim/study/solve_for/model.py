@@ -26,6 +26,21 @@ _EDGE_STEPS = 12
 _STEP = 0.02
 """Relative step of the slope."""
 
+_LEAST_HOURS = 1e-9
+"""Stands for the life of no hours of a case that contact fatigue damages from the start."""
+
+Result = WearResult | DriveLife
+
+
+def first_hours(result: Result) -> float:
+    """Hours until anything ends, by whatever mode, as far as the run went."""
+    return min(life.hours_run for life in result.named_lives.values())
+
+
+def worn_hours(result: Result) -> float:
+    """Hours until anything is worn out, as far as the run went."""
+    return result.life.hours_run
+
 
 @dataclass(frozen=True)
 class SolveTrial:
@@ -33,7 +48,7 @@ class SolveTrial:
 
     value: float  # of the key
     hours: float  # life, or twice the required hours where it is at least that [h]
-    result: WearResult | DriveLife  # the run
+    result: Result  # the run
 
 
 @dataclass(frozen=True)
@@ -52,8 +67,14 @@ class Solved:
 class _Lives:
     """Lives by value, each calculated once."""
 
-    def __init__(self, case_at: Callable[[float], Case | DriveCase], hours: float, whole: bool) -> None:
-        self.case_at, self.required, self.whole = case_at, hours, whole
+    def __init__(
+        self,
+        case_at: Callable[[float], Case | DriveCase],
+        hours: float,
+        whole: bool,
+        life_of: Callable[[Result], float],
+    ) -> None:
+        self.case_at, self.required, self.whole, self.life_of = case_at, hours, whole, life_of
         self.found: dict[float, SolveTrial | None] = {}
         self.failure: WearsimError | None = None
 
@@ -78,11 +99,15 @@ class _Lives:
         except WearsimError as error:
             self.failure = error
             return None
-        return SolveTrial(value, result.life.hours_run, result)
+        return SolveTrial(value, max(self.life_of(result), _LEAST_HOURS), result)
 
 
 def solve_for(
-    case_at: Callable[[float], Case | DriveCase], start: float, hours: float, whole: bool = False
+    case_at: Callable[[float], Case | DriveCase],
+    start: float,
+    hours: float,
+    whole: bool = False,
+    life_of: Callable[[Result], float] = first_hours,
 ) -> Solved:
     """Find the value of a key at which a case lives as long as required.
 
@@ -91,7 +116,7 @@ def solve_for(
     factor of 16; Brent's method on the logarithms follows, for whole numbers bisection to
     the value that still lives as long.
     """
-    lives = _Lives(case_at, hours, whole)
+    lives = _Lives(case_at, hours, whole, life_of)
     first = lives.at(start)
     if first is None:
         assert lives.failure is not None
