@@ -106,7 +106,7 @@ def result():
 @pytest.mark.parametrize("table", ["history", "flank"])
 def test_a_column_that_a_run_adds_is_saved_and_read(result, table, tmp_path):
     """It takes a row of quantities beside what computes it."""
-    parquet = pytest.importorskip("pyarrow.parquet")
+    parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed")
     columns = getattr(result, f"{table}_columns")
     added = {**columns, "tip_land_mm": 0.5 * columns["cycles"]}
     replace(result, **{f"{table}_columns": added}).save(tmp_path / "run", parquet=True)
