@@ -309,8 +309,10 @@ class DriveLife:
             name: [text for text in result.warnings if text not in rating_warnings(result.ratings)]
             for name, result in self.results.items()
         }
-        failed = (f"{name}: no life: {error}" for name, error in self.failed.items())
-        return (*failed, *said_of_sprockets(texts, self.drive.wheels))
+        failed = [f"{name}: no life: {error}" for name, error in self.failed.items()]
+        first = before_wear(self.ends, CHAIN)
+        sooner = [] if first is None else [_chains_end_sooner(self.chain, first)]
+        return (*failed, *sooner, *said_of_sprockets(texts, self.drive.wheels))
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -318,3 +320,10 @@ class DriveLife:
         first = self.practice.warnings if self.practice else ()
         others = (text for text in self.doubts if text not in first)
         return (*first, *rating_warnings(self.reference.ratings), *others)
+
+
+def _chains_end_sooner(worn: Life | LowerBound, first: PartEnd) -> str:
+    return (
+        f"sprocket lives are those under chains that run until they are worn ({hours(worn)}); "
+        f"{first.mode} ends these at {hours(first.life)}, which the wear of the teeth does not count"
+    )
