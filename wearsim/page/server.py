@@ -61,3 +61,7 @@ def _warm_up(texts: tuple[str, ...], stopping: threading.Event) -> None:
             simulate(load_single(CaseText(Path("warm.toml"), text), ["run.life_tolerance=0.1"]))
         except WearsimError:
             continue
+        except Exception:
+            # While the program is taken down a run may fail in any place.
+            if not stopping.is_set():
+                raise
