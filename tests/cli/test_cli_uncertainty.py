@@ -264,6 +264,7 @@ def test_cases_of_a_study_keep_the_joints_of_their_condition():
 
 def test_a_percentile_of_the_table_of_names_reaches_every_table(cli, case, tmp_path, monkeypatch):
     """Its row is all that a new percentile takes; hours that are required stay those of P10."""
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
     table = {"p5_hours": Quantity("p5_hours", "L_5", "h", "life that 19 of 20 drives exceed")} | quantities()
     monkeypatch.setattr("wearsim.quantities.quantities", lambda: table)
     percentile_shares.cache_clear()
