@@ -324,6 +324,6 @@ class DriveLife:
 
 def _chains_end_sooner(worn: Life | LowerBound, first: PartEnd) -> str:
     return (
-        f"sprocket lives are those under chains that run until they are worn ({hours(worn)}); "
-        f"{first.mode} ends these at {hours(first.life)}, which the wear of the teeth does not count"
+        f"sprocket lives assume chains that run until they are worn ({hours(worn)}); "
+        f"{first.mode} ends these at {hours(first.life)}, which the wear of the teeth does not allow for"
     )

@@ -22,7 +22,7 @@ from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
 from wearsim.runner.design import Design, replaced
 from wearsim.runner.scatter import ScatteredCase, ScatteredKey, load_scattered
-from wearsim.study.solve_for.model import solve_for, worn_hours
+from wearsim.study.solve_for.model import hours_to_wear, solve_for
 from wearsim.study.uncertainty.model import EDGE
 
 LOW, HIGH = 0.1, 0.9
@@ -137,7 +137,7 @@ def doubling(scattered: ScatteredCase, found: Sequence[KeyEffect]) -> dict[str, 
         key, value = effect.scatter.key, effect.scatter.value
         if value > 0.0 and effect.is_felt:
             case_at = partial(_case_with, scattered, key)
-            solved = solve_for(case_at, value, 2.0 * hours, life_of=worn_hours)
+            solved = solve_for(case_at, value, 2.0 * hours, life_of=hours_to_wear)
             doubled[key] = solved.trial.value if solved.met else math.nan
     return doubled
 

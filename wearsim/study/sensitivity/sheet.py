@@ -95,10 +95,12 @@ def sensitivity_text(answer: SensitivityAnswer) -> str:
     lines += ["", "what would double the life, the others as they are:"]
     for effect in answer.effects:
         value = answer.doubled[effect.scatter.key]
-        shown = f"{value:.4g}"
-        if math.isnan(value):
-            sought = scattered.case.fatigue is None
-            shown = "not looked for" if not sought else _NO_VALUE if effect.is_felt else _NOT_FELT
+        if not math.isnan(value):
+            shown = f"{value:.4g}"
+        elif scattered.case.fatigue is not None:
+            shown = "not looked for"
+        else:
+            shown = _NO_VALUE if effect.is_felt else _NOT_FELT
         lines.append(f"  {effect.scatter.key:<{width}}  {effect.scatter.value:.4g} -> {shown}")
     lines += ["", "what scatters:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in scattered.scatters]

@@ -18,7 +18,7 @@ _FACTOR = 2.0
 
 _MAX_FACTORS = 24
 _IN_VAIN = 4
-"""Factors on end that bring the life no nearer to what is required, after which that side is left."""
+"""Steps in a row that bring the life no nearer to what is required, after which a direction is given up."""
 
 _EDGE_STEPS = 12
 """Halvings of the logarithm on the way to the last value that is allowed."""
@@ -32,12 +32,12 @@ _LEAST_HOURS = 1e-9
 Result = WearResult | DriveLife
 
 
-def first_hours(result: Result) -> float:
+def hours_to_first_end(result: Result) -> float:
     """Hours until anything ends, by whatever mode, as far as the run went."""
     return min(life.hours_run for life in result.named_lives.values())
 
 
-def worn_hours(result: Result) -> float:
+def hours_to_wear(result: Result) -> float:
     """Hours until anything is worn out, as far as the run went."""
     return result.life.hours_run
 
@@ -107,14 +107,14 @@ def solve_for(
     start: float,
     hours: float,
     whole: bool = False,
-    life_of: Callable[[Result], float] = first_hours,
+    life_of: Callable[[Result], float] = hours_to_first_end,
 ) -> Solved:
     """Find the value of a key at which a case lives as long as required.
 
     From the start the value is doubled or halved, to the side on which the life comes
-    nearer first, until the life is met, the case refuses or the life comes no nearer by a
-    factor of 16; Brent's method on the logarithms follows, for whole numbers bisection to
-    the value that still lives as long.
+    nearer first, until the life is met, the case refuses or four steps bring the life no
+    nearer; Brent's method on the logarithms follows, for whole numbers bisection to the
+    value that still lives as long.
     """
     lives = _Lives(case_at, hours, whole, life_of)
     first = lives.at(start)

@@ -110,10 +110,12 @@ def _cross_checked(answer: "UncertaintyAnswer") -> "UncertaintyAnswer":
 
 
 def _missed(answer: "UncertaintyAnswer", require_hours: float | None) -> int:
+    if require_hours is None:
+        return 0
     from wearsim.study.uncertainty.percentiles import B10, percentile
 
     p10 = percentile(answer.hours, answer.reached, B10)
-    if require_hours is None or p10.hours >= (1.0 - _ROUNDING) * require_hours:
+    if p10.hours >= (1.0 - _ROUNDING) * require_hours:
         return 0
     warn(f"{answer.study.scattered.case.name}: P10 {p10.hours:.6g} h is below {require_hours:g} h")
     return NOT_MET
