@@ -6,8 +6,8 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 from sphinx.application import Sphinx
 
+from wearsim.case.keys import CaseTables
 from wearsim.command.registry import tables_of
-from wearsim.input.schema import CaseTables
 from wearsim.quantities import quantities
 
 _HEAD = ("key", "meaning", "unit", "default", "allowed")

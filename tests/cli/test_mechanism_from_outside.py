@@ -15,6 +15,7 @@ import pytest
 from click.testing import CliRunner
 
 import wearsim
+from wearsim.case.keys import RunTable, Table, WearTable
 from wearsim.case.model import Case, Drive
 from wearsim.case.table_inputs import TOLERANCE, run_input, take_defaults, wear_input
 from wearsim.cli.main import wearsim_command
@@ -23,8 +24,7 @@ from wearsim.geometry.profile_points import Profile
 from wearsim.input.calculation_file import checked
 from wearsim.input.case_record import CaseRecord
 from wearsim.input.mechanism_registry import MECHANISMS, MechanismEntry
-from wearsim.input.schema import RunTable, Table, WearTable
-from wearsim.input.schema.table import CalculationTables
+from wearsim.input.table import CalculationTables
 from wearsim.input.units import Positive
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.signatures import CONTACT

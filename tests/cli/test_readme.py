@@ -18,8 +18,8 @@ from pydantic import BaseModel
 
 import wearsim
 import wearsim.cli
+from wearsim.case.keys import CaseTables
 from wearsim.catalogue.catalogues import catalogue_rows
-from wearsim.input.schema import CaseTables
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.quantities import grouped
 from wearsim.report.comparison import comparison_table

@@ -6,12 +6,12 @@ import pytest
 
 from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.chain.practice import geometric_mean, opinions, outside_practice
-from wearsim.chain.recommended_lubrication import (
+from wearsim.errors import CaseError
+from wearsim.lubrication.recommended import (
     lubrication_life_factor,
     lubrication_speed_limits,
     recommended_lubrication,
 )
-from wearsim.errors import CaseError
 
 
 def hours(drive) -> dict[str, float | None]:

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from wearsim.case.keys import CaseTablesOrDrive
 from wearsim.catalogue.shipped_cases import shipped_cases
-from wearsim.input.schema import CaseTablesOrDrive
 
 WITH_UNITS = """\
 format_version = 1

@@ -6,10 +6,10 @@ import pandas as pd
 import pytest
 
 import wearsim
+from wearsim.case.keys import CaseTables
 from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError
-from wearsim.input.schema import CaseTables
-from wearsim.input.schema.lubrication_tables import LubricantOption
+from wearsim.lubrication.keys import LubricantOption
 from wearsim.report.flank_view import profile_table
 
 pytestmark = pytest.mark.wide

@@ -5,7 +5,7 @@ from pydantic import ValidationError
 
 import wearsim
 from wearsim.errors import CaseError
-from wearsim.input.schema.table import dotted
+from wearsim.input.table import dotted
 from wearsim.study.sweep.keys import SweepTables
 
 CASE = {

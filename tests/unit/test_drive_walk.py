@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from wearsim.case.keys import CaseTablesOrDrive
 from wearsim.drive.load_case import load_case, load_drive
 from wearsim.errors import CaseError
 from wearsim.input.keys import schema_fields
-from wearsim.input.schema import CaseTablesOrDrive
 from wearsim.report.drive.layout import layout_json
 
 pytestmark = pytest.mark.wide

@@ -12,7 +12,7 @@ from jsonschema import Draft202012Validator
 from pydantic import BaseModel
 
 import wearsim
-from wearsim.input.schema.lubrication_tables import LubricantOption
+from wearsim.lubrication.keys import LubricantOption
 from wearsim.mechanisms.gear_pair.keys import GearTables
 from wearsim.simulation.batch_lives import CaseLife
 

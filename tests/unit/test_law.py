@@ -6,9 +6,9 @@ import math
 import numpy as np
 import pytest
 
+from wearsim.case.keys.wear_tables import WearTable
 from wearsim.catalogue.catalogues import wear_laws
 from wearsim.contact.engagement import ContactKind
-from wearsim.input.schema.wear_tables import WearTable
 from wearsim.kernels.hertz_wear import wear_depth
 from wearsim.wear.law import LAWS as CONSTRUCTORS
 from wearsim.wear.law import WearLaw, archard, drozdov, mean_pressure_factor, power

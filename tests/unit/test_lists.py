@@ -10,6 +10,7 @@ import wearsim
 from tests.drives import STRAND
 from wearsim.cad import DRAWINGS, STATES, WHEELS
 from wearsim.cad.printed_page import drawing_bytes
+from wearsim.case.keys import SprocketTable
 from wearsim.catalogue.catalogues import chains
 from wearsim.chain.standard_teeth import standard_form, standard_tip_diameter
 from wearsim.cli.export import export
@@ -18,7 +19,6 @@ from wearsim.drive.load_case import load_case
 from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.geometry.scene import Scene, line
 from wearsim.input.mechanism_registry import mechanism_of
-from wearsim.input.schema import SprocketTable
 from wearsim.quantities import either, quantities
 from wearsim.result import WearResult
 

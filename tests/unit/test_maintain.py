@@ -9,10 +9,10 @@ import pytest
 
 import wearsim
 from tests.drives import FAST_WRAP, changed
+from wearsim.case.keys import MaintenanceTable
 from wearsim.contact.resting_engagement import ChainWear
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import CaseError
-from wearsim.input.schema import MaintenanceTable
 from wearsim.report.answer import answer
 from wearsim.result import Life, LowerBound
 from wearsim.simulation.wear_task import wear_law

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from wearsim.input.schema.study_tables import Distribution
+from wearsim.case.keys.study_tables import Distribution
 from wearsim.runner.distributions import quantile
 from wearsim.study.uncertainty.model import METHODS, unit_samples
 from wearsim.study.uncertainty.percentiles import fit_distributions, percentile

@@ -13,6 +13,8 @@ from pydantic import BaseModel
 import wearsim
 from tests.drives import STRAND, changed
 from wearsim.cad.wheel_drawing import wheel_points
+from wearsim.case.keys import CaseTablesOrDrive
+from wearsim.case.keys.study_tables import Distribution
 from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.cli.main import wearsim_command
 from wearsim.cli.schema import result_schema
@@ -22,8 +24,6 @@ from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.faults import Faults
 from wearsim.input.log_file import COLUMNS as LOG_COLUMNS
 from wearsim.input.mechanism_registry import MECHANISMS
-from wearsim.input.schema import CaseTablesOrDrive
-from wearsim.input.schema.study_tables import Distribution
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.quantities import Quantity, quantities
 from wearsim.report.comparison import comparison_table

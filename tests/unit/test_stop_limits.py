@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from tests.drives import STRAND, changed
+from wearsim.case.keys.wear_tables import StopTable
 from wearsim.case.model import Drive
 from wearsim.cli.schema import result_schema
 from wearsim.contact.stop_limits import LIMITS, depth_limit, first_limit_met, stop_limit
 from wearsim.drive.load_case import load_case
-from wearsim.input.schema.wear_tables import StopTable
 from wearsim.mechanisms.gear_pair.keys import GearStopTable
 from wearsim.page.field_words import label
 

@@ -2,10 +2,10 @@
 
 import pytest
 
+from wearsim.case.keys import CaseTables, DriveTables
 from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS
 from wearsim.input.keys import schema_fields
-from wearsim.input.schema import CaseTables, DriveTables
 from wearsim.mechanisms.gear_pair.keys import GearTables
 from wearsim.page.field_words import choice_words, label
 from wearsim.page.fields import form_fields, owner, table_meaning, table_title

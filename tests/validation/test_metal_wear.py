@@ -32,7 +32,7 @@ import pytest
 from scipy import stats
 
 import wearsim
-from wearsim.input.schema.study_tables import Distribution
+from wearsim.case.keys.study_tables import Distribution
 from wearsim.runner.distributions import quantile
 from wearsim.study.judge.model import judge_series
 from wearsim.study.judge.wear_series import WearReading, wear_series

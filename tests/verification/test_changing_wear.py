@@ -16,10 +16,12 @@ from scipy.integrate import quad
 import wearsim
 from tests.drives import LIGHT_WRAP, changed
 from wearsim.errors import CaseError, ContactError
+from wearsim.lubrication.clock import LubricantClock
+from wearsim.lubrication.law import LubricantLaw
+from wearsim.lubrication.schedule import LubricantSchedule
 from wearsim.report.answer import answer
 from wearsim.result import WearResult
-from wearsim.wear.lubricant_clock import LubricantClock, LubricantLaw, LubricantSchedule, LubricatedClock
-from wearsim.wear.mate_clock import STEADY, MateClock
+from wearsim.wear.mate_clock import STEADY, LubricatedClock, MateClock
 from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
 
 STRAND = Path(__file__).parents[2] / "cases" / "16b-20t-oiled.toml"

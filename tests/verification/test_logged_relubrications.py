@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.lubrication.clock import LubricantClock
+from wearsim.lubrication.law import LubricantLaw
+from wearsim.lubrication.schedule import LubricantEvent, LubricantSchedule
 from wearsim.study.remaining.relubrications import RelubricationLog
-from wearsim.wear.lubricant_clock import LubricantClock, LubricantEvent, LubricantLaw, LubricantSchedule
 
 pytest.importorskip("pandera", reason="pandera is not installed")
 

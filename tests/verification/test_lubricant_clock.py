@@ -13,15 +13,11 @@ import pytest
 from scipy.integrate import quad
 
 import wearsim
+from wearsim.lubrication.clock import FRESH, LubricantClock
+from wearsim.lubrication.law import LubricantLaw
+from wearsim.lubrication.schedule import LubricantEvent, LubricantSchedule
 from wearsim.result import WearResult
-from wearsim.wear.lubricant_clock import (
-    FRESH,
-    LubricantClock,
-    LubricantEvent,
-    LubricantLaw,
-    LubricantSchedule,
-    LubricatedClock,
-)
+from wearsim.wear.mate_clock import LubricatedClock
 from wearsim.wear.running_in import RunningIn
 
 CASES = Path(__file__).parents[2] / "cases"

@@ -8,8 +8,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from wearsim.case.chain_record import ChainRecord, mechanism_kind
 from wearsim.case.duty_blocks import GivenDuty, complete_duty
-from wearsim.case.lubrication_reader import lubrication_input
+from wearsim.case.keys import CaseTables, ChainTable
 from wearsim.case.model import Case, Drive, WearInput
 from wearsim.case.table_inputs import (
     contact_modulus_of,
@@ -22,11 +23,9 @@ from wearsim.case.table_inputs import (
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
 from wearsim.contact.stop_limits import CHAIN_LIMITS
 from wearsim.geometry.forms import TOOTH_FORMS
-from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
 from wearsim.input.faults import Faults
-from wearsim.input.mechanism_registry import mechanism_kind
-from wearsim.input.schema import CaseTables, ChainTable
+from wearsim.lubrication.read import lubrication_input
 
 _DEEP = 0.3
 """Critical depth over tooth thickness above which the tooth itself is in doubt."""

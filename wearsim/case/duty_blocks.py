@@ -4,11 +4,11 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
+from wearsim.case.chain_record import ChainRecord
+from wearsim.case.keys import DutyBlock
+from wearsim.case.keys.drive_tables import LOAD_KEYS
 from wearsim.case.log_blocks import log_blocks
 from wearsim.catalogue.catalogues import Chain, regimes
-from wearsim.input.case_record import ChainRecord
-from wearsim.input.schema import DutyBlock
-from wearsim.input.schema.drive_tables import LOAD_KEYS
 
 _MAX_BLOCKS = 12
 """Blocks of a log on a wrap, where every block adds its contacts to a cycle."""

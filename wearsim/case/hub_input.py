@@ -2,10 +2,10 @@
 
 from collections.abc import Callable
 
+from wearsim.case.chain_record import ChainRecord
+from wearsim.case.keys import SprocketTable
 from wearsim.geometry.hub import NO_HUB, Hub
 from wearsim.geometry.wheel_outline import ToothSpace
-from wearsim.input.case_record import ChainRecord
-from wearsim.input.schema import SprocketTable
 
 _NEEDS = {
     "keyway_width_mm": ("bore_mm", "keyway_depth_mm"),

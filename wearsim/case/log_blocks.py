@@ -3,8 +3,8 @@
 import math
 from dataclasses import dataclass
 
+from wearsim.case.chain_record import ChainRecord
 from wearsim.catalogue.catalogues import Chain
-from wearsim.input.case_record import ChainRecord
 from wearsim.input.duty_log import LogBin, log_bins, merged
 from wearsim.input.log_file import LogFile, read_log
 

@@ -10,7 +10,6 @@ from typing import Any, ClassVar, NamedTuple, TypeVar
 import numpy as np
 
 from wearsim.case.input_lines import input_lines
-from wearsim.case.lubrication_input import LubricationInput
 from wearsim.chain.selection import RatingFinding
 from wearsim.contact.engagement import ContactKind, Engagement, FlankContact, Mechanism
 from wearsim.contact.stop_limits import LIMITS, StopLimit, deepest, stop_limit
@@ -22,6 +21,7 @@ from wearsim.geometry.scene import Scene, Stroke
 from wearsim.geometry.wheel_outline import WheelShape
 from wearsim.input.document import GivenInput, read_document
 from wearsim.input.mechanism_registry import read_case
+from wearsim.lubrication.model import LubricationInput
 from wearsim.notebook import html_rows, one_line
 
 

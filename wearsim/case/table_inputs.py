@@ -4,14 +4,15 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
+from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenLoad
+from wearsim.case.keys import MaterialTable, RunTable, SprocketTable, Table, WearTable
+from wearsim.case.keys.wear_tables import FatigueTable, FilmTable, FlankMaterialTable
 from wearsim.case.model import FatigueInput, FilmInput, RunInput, WearInput
 from wearsim.catalogue.catalogues import Chain, materials, wear_conditions, wear_laws
 from wearsim.contact.hertz import contact_modulus
 from wearsim.fatigue.contact_fatigue import FlankMaterial
-from wearsim.input.case_record import CaseRecord, ChainRecord
-from wearsim.input.schema import MaterialTable, RunTable, SprocketTable, Table, WearTable
-from wearsim.input.schema.wear_tables import FatigueTable, FilmTable, FlankMaterialTable
+from wearsim.input.case_record import CaseRecord
 
 DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""

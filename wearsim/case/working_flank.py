@@ -3,15 +3,15 @@
 import math
 from functools import lru_cache
 
+from wearsim.case.chain_record import ChainRecord
+from wearsim.case.keys import SprocketTable
 from wearsim.catalogue.catalogues import Chain
 from wearsim.errors import GeometryError
 from wearsim.geometry.feasibility import OFFSET_RESERVE, evolute_limits, remedy, smallest_offset, tooth_limits
 from wearsim.geometry.forms.evolute import Strand, contact_ratio, evolute_flank
 from wearsim.geometry.measured.points import contact_range, flank_from_points, gap_rotation, working_side
 from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
-from wearsim.input.case_record import ChainRecord
 from wearsim.input.csv_tables import read_points
-from wearsim.input.schema import SprocketTable
 
 CONTACT_END_PER_PITCH = 0.16
 CONTACT_RATIO = 1.05

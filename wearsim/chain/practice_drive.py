@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 from wearsim.catalogue.catalogues import environments
 from wearsim.chain.power_rating import strand_factor
-from wearsim.chain.recommended_lubrication import (
+from wearsim.chain.service_conditions import LUBRICATIONS
+from wearsim.errors import CaseError, Fault
+from wearsim.lubrication.recommended import (
     LubricationFactor,
     lubrication_life_factor,
     recommended_lubrication,
 )
-from wearsim.chain.service_conditions import LUBRICATIONS
-from wearsim.errors import CaseError, Fault
 
 RATED_ELONGATION = 0.03
 """At which the rules take a chain for worn out."""

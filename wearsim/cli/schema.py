@@ -26,8 +26,8 @@ def schema(of_result: bool, command: str | None) -> None:
     if of_result:
         click.echo(json.dumps(result_schema(), indent=2))
         return
+    from wearsim.case.keys import CaseTablesOrDrive
     from wearsim.command.registry import OTHER_FILES, tables_of
-    from wearsim.input.schema import CaseTablesOrDrive
 
     if command and command not in OTHER_FILES:
         raise click.BadParameter(f"must be one of {', '.join(OTHER_FILES)}, not {command}", param_hint="--of")

@@ -11,7 +11,7 @@ from wearsim.catalogue.shipped_cases import place_of_case, shipped_cases
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
-    from wearsim.input.schema import Table
+    from wearsim.case.keys import Table
 
 _OF_DRIVES = ("life", "check", "compare", "loads", "maintain", "profile", "remaining")
 

@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-from wearsim.input.schema.table import CalculationTables
+from wearsim.input.table import CalculationTables
 
 _HANDBOOK = {
     "strength": "StrengthTables",

@@ -7,10 +7,10 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from wearsim.case.keys import PlaceTable
 from wearsim.chain.chain_loop import Wheel
 from wearsim.input.document import Document
 from wearsim.input.faults import Faults, validation_faults
-from wearsim.input.schema import PlaceTable
 from wearsim.input.units import convert
 from wearsim.mechanisms.wrap.place_in_loop import GivenTakeUp, PlaceInLoop
 

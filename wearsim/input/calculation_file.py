@@ -7,7 +7,7 @@ from pydantic import ValidationError
 
 from wearsim.input.document import CaseSource, Document, read_document
 from wearsim.input.other_files import check_command
-from wearsim.input.schema.table import CalculationTables, Table
+from wearsim.input.table import CalculationTables, Table
 
 Tables = TypeVar("Tables", bound=CalculationTables)
 

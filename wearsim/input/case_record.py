@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from wearsim.input.faults import Faults
-from wearsim.input.schema import CaseTables, Table
+from wearsim.input.table import Table
 
 
 class CaseRecord:
@@ -42,14 +42,3 @@ class CaseRecord:
             text = path.read_text(encoding="utf-8-sig", errors="surrogateescape")
             found[path.name] = sys.intern(text)
         return found
-
-
-class ChainRecord(CaseRecord):
-    """The record of a drive with a chain."""
-
-    def __init__(self, tables: CaseTables, folder: Path, faults: Faults) -> None:
-        super().__init__(tables, folder, faults)
-        self.tables = tables
-        if tables.sprocket is not None and "back_flank" not in tables.sprocket.model_fields_set:
-            # Taken where the tooth form has one.
-            del self.inputs["sprocket"]["back_flank"]

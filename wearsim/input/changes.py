@@ -10,7 +10,7 @@ from typing import Any
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import GivenInput
 from wearsim.input.keys import schema_of, tables_in
-from wearsim.input.schema.table import Table, is_number
+from wearsim.input.table import Table, is_number
 
 _CHANGED = ", changed by with_"
 

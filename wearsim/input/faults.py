@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from wearsim.errors import CaseError, Fault
-from wearsim.input.schema.table import CHOSEN, is_number, without_numbers
+from wearsim.input.table import CHOSEN, is_number, without_numbers
 
 _MARK = "\x00wearsim\x00"
 _MAX_SHOWN = 20

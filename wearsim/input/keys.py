@@ -6,7 +6,7 @@ from typing import Any, Literal, get_args, get_origin
 from pydantic.fields import FieldInfo
 
 from wearsim.input.mechanism_registry import mechanism_of
-from wearsim.input.schema.table import Table
+from wearsim.input.table import Table
 
 
 def schema_of(tables: Mapping[str, Any]) -> type[Table]:
@@ -29,7 +29,7 @@ def schema_fields(model: type[Table], prefix: str = "") -> Iterator[tuple[str, F
 
     Examples
     --------
-    >>> from wearsim.input.schema import CaseTables
+    >>> from wearsim.case.keys import CaseTables
     >>> keys = dict(schema_fields(CaseTables))
     >>> "run.horizon_hours" in keys, "duty[].speed_rpm" in keys
     (True, True)
@@ -50,7 +50,7 @@ def words(field: FieldInfo) -> tuple[str, ...]:
 
     Examples
     --------
-    >>> from wearsim.input.schema import CaseTables
+    >>> from wearsim.case.keys import CaseTables
     >>> words(dict(schema_fields(CaseTables))["mechanism.kind"])
     ('strand', 'prescribed', 'wrap')
     """
@@ -68,7 +68,7 @@ def whole_number_keys(model: type[Table]) -> set[str]:
 
     Examples
     --------
-    >>> from wearsim.input.schema import CaseTables
+    >>> from wearsim.case.keys import CaseTables
     >>> keys = whole_number_keys(CaseTables)
     >>> "sprocket.teeth" in keys, "load.power_kW" in keys
     (True, False)

@@ -1,19 +1,16 @@
-"""Which mechanism a case is about, and which keys belong to it."""
+"""Which mechanism a case is about."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from wearsim.contact.stop_limits import CHAIN_LIMITS
 from wearsim.geometry.forms import TOOTH_FORMS
-from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document, is_whole_drive
-from wearsim.input.schema import CaseTables
 from wearsim.kernels.compiled import expect
 from wearsim.lazy import named
 
-_STRAND_FORMS = tuple(name for name, form in TOOTH_FORMS.items() if form.on_strand)
-_WRAP_FORMS = tuple(name for name in TOOTH_FORMS if name not in _STRAND_FORMS)
+STRAND_FORMS = tuple(name for name, form in TOOTH_FORMS.items() if form.on_strand)
+WRAP_FORMS = tuple(name for name in TOOTH_FORMS if name not in STRAND_FORMS)
 """Tooth forms for a chain that wraps the sprocket, and no other."""
 
 HISTORY = (
@@ -62,7 +59,7 @@ _FLANK_KERNELS = (
     "controlled_steps.wear_in_steps",
     "controlled_steps.states_between",
 )
-_CHAIN = "wearsim.input.schema:CaseTables"
+_CHAIN = "wearsim.case.keys:CaseTables"
 
 MECHANISMS = {
     "strand": MechanismEntry(
@@ -107,7 +104,7 @@ MECHANISMS = {
 """The one list of mechanisms by their kinds; a program adds one of its own by ``MECHANISMS[kind] = ...``."""
 
 WHOLE_DRIVE = replace(
-    MECHANISMS["wrap"], tables="wearsim.input.schema:DriveTables", read="wearsim.drive.read:read_drive"
+    MECHANISMS["wrap"], tables="wearsim.case.keys:DriveTables", read="wearsim.drive.read:read_drive"
 )
 """A chain and all of its sprockets, each of which it wraps."""
 
@@ -127,7 +124,7 @@ def mechanism_of(data: Mapping[str, Any]) -> MechanismEntry:
     mechanism, sprocket = data.get("mechanism"), data.get("sprocket")
     kind = mechanism.get("kind") if isinstance(mechanism, dict) else None
     profile = sprocket.get("profile") if isinstance(sprocket, dict) else None
-    default = "wrap" if profile in _WRAP_FORMS else "strand"
+    default = "wrap" if profile in WRAP_FORMS else "strand"
     return MECHANISMS[kind if isinstance(kind, str) and kind in MECHANISMS else default]
 
 
@@ -137,50 +134,3 @@ def read_case(document: Document) -> Any:
     read = mechanism.load("read")
     expect(mechanism.kernels)
     return read(document)
-
-
-_BELONGS_TO = {
-    "mechanism.table_file": "prescribed",
-    "mechanism.phases": "wrap",
-    "mechanism.friction_roller_tooth": "wrap",
-    "mechanism.friction_roller_bush": "wrap",
-    "drive": "wrap",
-    "joint": "wrap",
-    "sprocket.role": "wrap",
-    **{f"stop.{row.key}": row.kind for row in CHAIN_LIMITS if row.kind},
-    "wear.roller_wear_ratio": "wrap",
-    "chain.pin_diameter_mm": "wrap",
-    "chain.bush_diameter_mm": "wrap",
-    "chain.bearing_area_mm2": "wrap",
-    "chain.mass_kg_per_m": "wrap",
-}
-
-
-def mechanism_kind(case: ChainRecord) -> str:
-    """Return the kind of mechanism, and name the keys that belong to another one."""
-    tables = case.tables
-    profile = tables.sprocket.profile if tables.sprocket else ""
-    kind = tables.mechanism.kind
-    if kind is None:
-        kind = "wrap" if profile in _WRAP_FORMS else "strand"
-        case.take("mechanism.kind", kind, "default for this profile")
-    if kind == "strand" and profile in _WRAP_FORMS:
-        case.faults.add(
-            "sprocket.profile",
-            f"{profile!r} is made for a chain that wraps the sprocket: set mechanism.kind = 'wrap', or "
-            f"use profile = {' or '.join(map(repr, _STRAND_FORMS))} on a strand",
-        )
-    for place, owner in _BELONGS_TO.items():
-        for key in _given(tables, place) if owner != kind else ():
-            case.faults.add(key, f"belongs to kind = {owner!r}: remove it")
-    return kind
-
-
-def _given(tables: CaseTables, place: str) -> list[str]:
-    """Return the keys that were given of a table, or the one key that is named."""
-    table, _, name = place.partition(".")
-    model = getattr(tables, table)
-    if model is None:
-        return []
-    names = sorted(model.model_fields_set) if not name else [name]
-    return [f"{table}.{key}" for key in names if getattr(model, key) is not None]

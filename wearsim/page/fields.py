@@ -6,9 +6,9 @@ from typing import Any, get_origin
 
 from pydantic.fields import FieldInfo
 
+from wearsim.case.keys import Table
 from wearsim.catalogue.catalogues import catalogue_rows, chains, environments, lubricants, wear_conditions
 from wearsim.input.keys import is_dict, parts, schema_fields, schema_of, tables_in, words
-from wearsim.input.schema import Table
 from wearsim.quantities import quantities
 
 

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 from scipy import stats
 
+from wearsim.case.keys.study_tables import Distribution
 from wearsim.geometry.profile_points import Vector
-from wearsim.input.schema.study_tables import Distribution
 
 Quantile = Callable[[Vector], Vector]
 

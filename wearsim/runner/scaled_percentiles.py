@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from wearsim.case.keys.study_tables import Distribution
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
-from wearsim.input.schema.study_tables import Distribution
 from wearsim.result import Life, WearResult
 from wearsim.runner.distributions import quantile
 from wearsim.runner.scatter import coefficient_key

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from wearsim.case.keys.study_tables import Distribution
 from wearsim.case.model import Case, WearBand, log_deviation
 from wearsim.catalogue.catalogues import wear_laws
 from wearsim.drive.drive_case import chain_case, with_one_wear
@@ -14,7 +15,6 @@ from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import CaseSource, Document, read_document
-from wearsim.input.schema.study_tables import Distribution
 from wearsim.result.folder import file_paths
 from wearsim.runner.design import Design, design, replaced, value_at, value_in
 from wearsim.runner.distributions import described, quantile

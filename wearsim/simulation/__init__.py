@@ -8,7 +8,7 @@ from wearsim.result import WearResult
 
 if TYPE_CHECKING:
     from wearsim.wear.accuracy import GridStudy
-    from wearsim.wear.lubricant_clock import LubricatedClock
+    from wearsim.wear.mate_clock import LubricatedClock
 
 __all__ = ["simulate", "verify_grid"]
 

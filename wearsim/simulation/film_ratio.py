@@ -5,7 +5,7 @@ import numpy as np
 from wearsim.case.model import Case, FilmInput
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
-from wearsim.wear.film import Lubricant, minimum_film
+from wearsim.lubrication.film import Lubricant, minimum_film
 
 _BOUNDARY, _FULL = 1.0, 3.0
 """Film ratios between which flanks touch through the film, by convention."""

@@ -12,8 +12,9 @@ from wearsim.contact.stop_limits import StopLimit
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.severity import FIRST, SECOND
+from wearsim.lubrication.clock import lubricant_clock
 from wearsim.result import LimitState
-from wearsim.simulation.lubricant import lubricant_clock, sliding_per_cycle
+from wearsim.simulation.lubricant import sliding_per_cycle
 from wearsim.wear.advance import run_advance
 from wearsim.wear.cycles_power import CyclesPower
 from wearsim.wear.law import (
@@ -24,7 +25,7 @@ from wearsim.wear.law import (
     mean_pressure_factor,
     with_pressure_speed_limit,
 )
-from wearsim.wear.lubricant_clock import LubricatedClock
+from wearsim.wear.mate_clock import LubricatedClock
 from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
 from wearsim.wear.severity import on_level_branch, t_gamma_energy
 from wearsim.wear.trajectory import Trajectory
@@ -130,7 +131,9 @@ def clock_assumptions(clock: WearClock) -> tuple[str, ...]:
 
 def contact_clock(case: Case, sliding: float, of_lubricant: float) -> LubricatedClock:
     """Return the clock of contacts, from what they and those of the lubricant slide in a cycle [mm]."""
-    return LubricatedClock(_part_clock(case, sliding), lubricant_clock(case, of_lubricant))
+    return LubricatedClock(
+        _part_clock(case, sliding), lubricant_clock(case.lubrication, case.cycles_per_hour, of_lubricant)
+    )
 
 
 def _part_clock(case: Case, sliding_per_cycle: float) -> WearClock:

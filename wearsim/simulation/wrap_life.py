@@ -22,8 +22,7 @@ from wearsim.simulation.wear_task import clock_assumptions, contact_clock, limit
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
-from wearsim.wear.lubricant_clock import LubricatedClock
-from wearsim.wear.mate_clock import MateClock
+from wearsim.wear.mate_clock import LubricatedClock, MateClock
 from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
 from wearsim.wear.running_in import NO_RUNNING_IN

@@ -1,4 +1,4 @@
-"""The clock of a mate that is renewed while the bodies go on wearing: of a chain on its sprocket."""
+"""Clocks of lubricated bodies, and of mates that are renewed while the bodies go on wearing."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -6,9 +6,50 @@ from functools import cached_property
 import numpy as np
 
 from wearsim.geometry.profile_points import Vector
-from wearsim.wear.lubricant_clock import LubricatedClock
+from wearsim.lubrication.clock import FRESH, LubricantClock
 from wearsim.wear.running_in import NO_RUNNING_IN
 from wearsim.wear.wear_clock import WearClock
+
+
+@dataclass(frozen=True, eq=False)
+class LubricatedClock(WearClock):
+    """Between cycles run and the cycles of constant coefficient, where the lubricant changes too.
+
+    Contacts run in by what they wear, so the clock of a part counts the cycles of lubricated contacts.
+
+    Equation physics.md (O3).
+    """
+
+    part: WearClock
+    lubricant: LubricantClock = FRESH
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether both kinds of cycles are the same."""
+        return self.part.is_steady and self.lubricant is FRESH
+
+    @property
+    def shortest(self) -> float:
+        """As of a part."""
+        return self.part.shortest
+
+    @property
+    def amplification(self) -> float:
+        """Greatest relative error of the cycles run for one of the constant cycles, at most."""
+        return self.part.amplification * self.lubricant.amplification
+
+    def assumption(self) -> str:
+        """Say what is taken for granted of a part; the case says what is of the lubricant."""
+        return self.part.assumption()
+
+    def steady_cycles(self, cycles: float) -> float:
+        """Return the cycles of constant coefficient that wear as much as those run."""
+        return self.part.steady_cycles(self.lubricant.steady_cycles(cycles))
+
+    def running_cycles(self, constant: Vector) -> Vector:
+        """Return the cycles run that wear as much as those of constant coefficient."""
+        lubricated = self.part.running_cycles(constant)
+        return lubricated if self.lubricant is FRESH else self.lubricant.running_cycles(lubricated)
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from wearsim.handbook.convex_concave.model import GearBlanks, PairLayout, pair_layout
-from wearsim.input.schema.table import CalculationTables, Table
+from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import NotNegative, Number, Positive, PositiveNumber
 
 Teeth = Annotated[int, Field(ge=5, le=400)]

@@ -12,7 +12,7 @@ from wearsim.handbook.face_load.model import (
     WidePair,
     face_load_factors,
 )
-from wearsim.input.schema.table import CalculationTables, Table
+from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import NotNegative, Positive, PositiveNumber
 
 

@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, Field
 
 from wearsim.handbook.hertz_check.model import HertzCheck, PublishedStresses, TeethOfPair, pitch_point_check
 from wearsim.handbook.hertz_check.pitch_point_contact import PitchPointContact, combinations
-from wearsim.input.schema.table import CalculationTables, Table
+from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import Number, Positive, PositiveNumber
 from wearsim.mechanisms.gear_pair.keys import Teeth
 

@@ -12,7 +12,7 @@ from wearsim.handbook.stiffness_spectrum.model import (
     ToothErrors,
     mesh_spectrum,
 )
-from wearsim.input.schema.table import CalculationTables, Table
+from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import NotNegative, Positive, PositiveNumber
 
 Model = Literal["pairs", "double_sum"]

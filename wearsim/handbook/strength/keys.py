@@ -5,6 +5,16 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from wearsim.case.keys.drive_tables import Regime
+from wearsim.case.keys.wear_tables import (
+    NITRIDED_LIMIT,
+    AtLeastOne,
+    Brinell,
+    Rockwell,
+    Stress,
+    Treatment,
+    one_hardness,
+)
 from wearsim.fatigue.endurance import service_hours
 from wearsim.handbook.strength.model import (
     GearMaterial,
@@ -15,17 +25,7 @@ from wearsim.handbook.strength.model import (
     pair_strength,
 )
 from wearsim.handbook.strength.spectrum import OVERLOAD_CYCLES
-from wearsim.input.schema.drive_tables import Regime
-from wearsim.input.schema.table import CalculationTables, Table
-from wearsim.input.schema.wear_tables import (
-    NITRIDED_LIMIT,
-    AtLeastOne,
-    Brinell,
-    Rockwell,
-    Stress,
-    Treatment,
-    one_hardness,
-)
+from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import Number, Positive, PositiveNumber
 
 _YIELDS = ("normalised", "quenched_and_tempered", "through_hardened")

@@ -5,11 +5,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from wearsim.case.keys.wear_tables import MaterialTable
 from wearsim.catalogue.catalogues import materials
 from wearsim.contact.prescribed_stress import LoadedPair
 from wearsim.handbook.synthesise.model import MeshPhase, MeshPlane, PhaseStart, loaded_pair, profile_phases
-from wearsim.input.schema.table import CalculationTables, Table
-from wearsim.input.schema.wear_tables import MaterialTable
+from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import Positive, PositiveNumber, Series, Signed
 from wearsim.mechanisms.gear_pair.keys import listed, stress_conflicts
 

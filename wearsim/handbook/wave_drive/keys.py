@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from wearsim.handbook.wave_drive.model import MethodComparison, flexspline_diameters
-from wearsim.input.schema.table import CalculationTables, Table
+from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import Positive, PositiveNumber
 
 Formula = Literal["corrected", "printed"]

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 
-from wearsim.case.lubrication_reader import lubrication_input
 from wearsim.case.model import Case
 from wearsim.case.table_inputs import (
     FLANK_NODES,
@@ -24,6 +23,7 @@ from wearsim.geometry.gear.plane_gearing import PitchCircles
 from wearsim.input.calculation_file import checked
 from wearsim.input.case_record import CaseRecord
 from wearsim.input.document import Document
+from wearsim.lubrication.read import lubrication_input
 from wearsim.mechanisms.gear_pair.drive import GearDrive
 from wearsim.mechanisms.gear_pair.keys import GearTable, GearTables
 

@@ -5,10 +5,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from wearsim.input.schema.lubrication_tables import LubricationTable
-from wearsim.input.schema.study_tables import OptimiseTable, Uncertainty
-from wearsim.input.schema.table import CalculationTables, Table
-from wearsim.input.schema.wear_tables import (
+from wearsim.case.keys.study_tables import OptimiseTable, Uncertainty
+from wearsim.case.keys.wear_tables import (
     Depth,
     FatigueTable,
     FilmTable,
@@ -17,7 +15,9 @@ from wearsim.input.schema.wear_tables import (
     RunTable,
     WearTable,
 )
+from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import Number, Positive, PositiveNumber, Series, Signed, Speed
+from wearsim.lubrication.keys import LubricationTable
 
 Teeth = Annotated[int, Field(ge=5, le=1000)]
 

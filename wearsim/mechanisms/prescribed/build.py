@@ -1,11 +1,11 @@
 """From a table of load and sliding to the drive of its flank."""
 
 from wearsim.case.chain_case import read_chain_case
+from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenDuty
 from wearsim.case.model import Case, WearInput
 from wearsim.case.table_inputs import TOLERANCE, slip_fraction
 from wearsim.catalogue.catalogues import Chain
-from wearsim.input.case_record import ChainRecord
 from wearsim.input.csv_tables import read_prescribed
 from wearsim.input.document import Document
 from wearsim.mechanisms.prescribed.drive import PrescribedDrive

@@ -4,6 +4,7 @@ import math
 from functools import partial
 
 from wearsim.case.chain_case import read_chain_case
+from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
 from wearsim.case.hub_input import hub_input
 from wearsim.case.model import Case, LoadBlock, WearInput, heaviest_block, on_flank
@@ -18,7 +19,6 @@ from wearsim.case.table_inputs import (
 from wearsim.case.working_flank import evolute_tooth, points_tooth
 from wearsim.catalogue.catalogues import Chain
 from wearsim.geometry.blank import tooth_space
-from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
 from wearsim.mechanisms.strand.drive import StrandDrive
 

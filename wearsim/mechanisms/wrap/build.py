@@ -4,8 +4,10 @@ import math
 from functools import partial
 
 from wearsim.case.chain_case import read_chain_case
+from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
 from wearsim.case.hub_input import hub_input
+from wearsim.case.keys import DriveTable
 from wearsim.case.model import Case, WearInput, heaviest_block
 from wearsim.case.table_inputs import chain_pull, chain_speed, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain
@@ -16,9 +18,7 @@ from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
 from wearsim.geometry.blank import gap_space
-from wearsim.input.case_record import ChainRecord
 from wearsim.input.document import Document
-from wearsim.input.schema import DriveTable
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.gap_shape import gap_shape
 from wearsim.mechanisms.wrap.joints import joint_input, joint_law_of, with_teeth_alike

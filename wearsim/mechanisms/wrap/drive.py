@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from wearsim.case.keys.drive_tables import JOINT_LAW_KEYS
 from wearsim.case.model import Case, Drive, LoadBlock, WearBand, WearInput, heaviest_block, on_flank
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
@@ -28,7 +29,6 @@ from wearsim.geometry.roller_path import RollerPath, roller_path
 from wearsim.geometry.scene import Scene, Stroke
 from wearsim.geometry.wheel_outline import WheelShape
 from wearsim.geometry.worn_tooth import measurement_over_pins, tip_land, tooth_thickness
-from wearsim.input.schema.drive_tables import JOINT_LAW_KEYS
 from wearsim.mechanisms.wrap.chain_rating import (
     drive_notes,
     elongation_finding,

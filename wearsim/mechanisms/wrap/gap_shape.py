@@ -6,6 +6,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from wearsim.case.chain_record import ChainRecord
+from wearsim.case.keys import SprocketTable
 from wearsim.case.working_flank import POINTS_NOISE, evolute_tooth
 from wearsim.catalogue.catalogues import Chain, chains
 from wearsim.errors import GeometryError
@@ -17,9 +19,7 @@ from wearsim.geometry.measured.drawing_doubts import EFFECT, rounding_step, roun
 from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 from wearsim.geometry.measured.edge_chains import NEAR
 from wearsim.geometry.profile_points import Profile, Vector
-from wearsim.input.case_record import ChainRecord
 from wearsim.input.csv_tables import read_points
-from wearsim.input.schema import SprocketTable
 
 OUTLINE_NODES = 601
 

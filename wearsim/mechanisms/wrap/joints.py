@@ -4,6 +4,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import astuple, replace
 
+from wearsim.case.chain_record import ChainRecord
+from wearsim.case.keys import JointTable
+from wearsim.case.keys.drive_tables import JOINT_LAW_KEYS
 from wearsim.case.model import WearBand, WearInput
 from wearsim.case.table_inputs import DEFAULT_BAND
 from wearsim.catalogue.catalogues import (
@@ -17,9 +20,6 @@ from wearsim.catalogue.catalogues import (
 from wearsim.chain.drive_layout import DriveLayout
 from wearsim.chain.joint_wear import JointBand, JointLaw, JointState, extrapolated, joint_band, joint_law
 from wearsim.chain.loop_layout import LoopLayout
-from wearsim.input.case_record import ChainRecord
-from wearsim.input.schema import JointTable
-from wearsim.input.schema.drive_tables import JOINT_LAW_KEYS
 from wearsim.mechanisms.wrap.drive import (
     CONSTANT,
     JOINT_COEFFICIENT,

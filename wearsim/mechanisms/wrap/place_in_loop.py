@@ -5,7 +5,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
+from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
+from wearsim.case.keys import DriveTable
 from wearsim.case.table_inputs import chain_pull, chain_speed, within_strength
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_length import STRETCH, odd_links_warning
@@ -17,8 +19,6 @@ from wearsim.chain.loop_layout import LoopDrive, LoopLayout, loop_layout, seen_f
 from wearsim.chain.span_tension import centrifugal_tension
 from wearsim.chain.take_up import TakeUp
 from wearsim.errors import CaseError, GeometryError
-from wearsim.input.case_record import ChainRecord
-from wearsim.input.schema import DriveTable
 from wearsim.mechanisms.wrap.drive import WrapLoad
 
 LOOP_KEY = "drive.loop"

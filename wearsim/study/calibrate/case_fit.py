@@ -12,7 +12,7 @@ from wearsim.case.model import Case
 from wearsim.chain.joint_wear import JointLaw
 from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.geometry.profile_points import Vector
-from wearsim.input.schema.lubrication_tables import SCHEDULES
+from wearsim.lubrication.keys import SCHEDULES
 from wearsim.runner.design import replaced
 from wearsim.runner.scatter import coefficient_key
 from wearsim.simulation.wrap_life import wrap_of

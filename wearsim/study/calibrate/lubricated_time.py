@@ -8,7 +8,7 @@ from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase
 from wearsim.simulation import case_clock
 from wearsim.study.remaining.relubrications import RelubricationLog, relubricated
-from wearsim.wear.lubricant_clock import LubricatedClock
+from wearsim.wear.mate_clock import LubricatedClock
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wearsim.wear.lubricant_clock import LubricantClock, LubricantEvent, LubricantLaw, LubricantSchedule
+from wearsim.lubrication.clock import LubricantClock
+from wearsim.lubrication.law import LubricantLaw
+from wearsim.lubrication.schedule import LubricantEvent, LubricantSchedule
 
 _SHOWN = (0.25, 0.5, 0.75, 1.0, 1.1, 1.25, 1.5, 2.0, 4.0, 10.0)
 """Intervals of the table beside the case's own and the cheapest, over what the lubricant lasts."""

@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wearsim.case.lubrication_input import ENDLESS, LubricationInput
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
+from wearsim.lubrication.clock import LubricantClock
+from wearsim.lubrication.model import ENDLESS, LubricationInput
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import case_clock
 from wearsim.study.lubricate.intervals import (
@@ -21,7 +22,6 @@ from wearsim.study.lubricate.intervals import (
     RelubricationPolicy,
     WornPart,
 )
-from wearsim.wear.lubricant_clock import LubricantClock
 from wearsim.wear.wear_clock import WearClock
 
 CONVENTIONS = (

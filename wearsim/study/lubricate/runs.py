@@ -14,7 +14,7 @@ from wearsim.drive.maintenance import part_lives
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput
-from wearsim.input.schema.lubrication_tables import APPLICATION, FADES, LASTS, RATES, SCHEDULES, SUPPLY
+from wearsim.lubrication.keys import APPLICATION, FADES, LASTS, RATES, SCHEDULES, SUPPLY
 from wearsim.result import Life, LowerBound
 from wearsim.simulation import case_clock, simulate
 from wearsim.simulation.wrap_life import chain_clock

@@ -4,9 +4,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from wearsim.case.keys import MaintenanceTable
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, ContactError, ConvergenceError, WearsimError
-from wearsim.input.schema import MaintenanceTable
 from wearsim.mechanisms.wrap.drive import WrapDrive, wrap_drive
 from wearsim.result import Life, LowerBound
 from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant

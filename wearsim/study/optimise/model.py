@@ -7,14 +7,14 @@ from itertools import zip_longest
 from pathlib import Path, PurePath
 from typing import Any
 
+from wearsim.case.keys.study_tables import MeasureLimit, OptimiseTable
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import materials
 from wearsim.drive.drive_case import DriveCase, chain_case, single_cases
 from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, Document, read_document
-from wearsim.input.schema.study_tables import MeasureLimit, OptimiseTable
-from wearsim.input.schema.table import all_differ
+from wearsim.input.table import all_differ
 from wearsim.runner.design import NAMES_FILE, Design, design, replaced, value_in
 from wearsim.runner.scatter import WITH_FATIGUE
 from wearsim.study.optimise.search_space import SearchSpace, search_space

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from wearsim.case.keys.study_tables import MeasureLimit
 from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
-from wearsim.input.schema.study_tables import MeasureLimit
 from wearsim.study.optimise.local_model import proposals
 from wearsim.study.optimise.model import OptimiseStudy
 from wearsim.study.optimise.trials import FAILED, MAXIMISED, Candidate, Trials, front

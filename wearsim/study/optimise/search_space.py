@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic.fields import FieldInfo
 
+from wearsim.case.keys.study_tables import ParameterRange
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.keys import parts, schema_fields, schema_of, words
-from wearsim.input.schema.study_tables import ParameterRange
-from wearsim.input.schema.table import without_numbers
+from wearsim.input.table import without_numbers
 from wearsim.runner.design import NAMES_FILE
 from wearsim.study.uncertainty.model import unit_samples
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import pandas as pd
 
+from wearsim.case.keys.study_tables import MeasureLimit
 from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase, single_cases
 from wearsim.errors import StudyError, WearsimError
-from wearsim.input.schema.study_tables import MeasureLimit
 from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.design import Design
 from wearsim.runner.shard import loaded_cases

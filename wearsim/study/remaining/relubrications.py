@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from wearsim.case.lubrication_input import LubricationInput, RunningWay
 from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase, chain_case
 from wearsim.errors import CaseError, Fault
+from wearsim.lubrication.model import LubricationInput, RunningWay
 from wearsim.quantities import grouped
 from wearsim.simulation import case_clock
 from wearsim.study.remaining.dated_rows import DatedRows, ServiceTime

@@ -4,16 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PositiveInt, field_validator
 
-from wearsim.input.schema.table import (
-    CalculationTables,
-    Choice,
-    Finite,
-    Table,
-    all_differ,
-    choice,
-    dotted,
-    list_or,
-)
+from wearsim.input.table import CalculationTables, Choice, Finite, Table, all_differ, choice, dotted, list_or
 
 
 def _value(value: object) -> object:

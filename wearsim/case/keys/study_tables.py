@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
-from wearsim.input.schema.table import Above0, Choice, Finite, Table, all_differ, dotted, list_or
+from wearsim.input.table import Above0, Choice, Finite, Table, all_differ, dotted, list_or
 from wearsim.input.units import Positive, PositiveNumber
 
 

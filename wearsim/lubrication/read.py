@@ -3,11 +3,10 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from wearsim.case.lubrication_input import ENDLESS, Dirt, LubricationInput, PhaseInput, RunningWay
 from wearsim.catalogue.catalogues import Lubricant, environments, lubricants, wear_conditions
 from wearsim.contact.abrasion import abrasion_share
 from wearsim.input.case_record import CaseRecord
-from wearsim.input.schema.lubrication_tables import (
+from wearsim.lubrication.keys import (
     AT,
     FADES,
     INTERVAL,
@@ -17,6 +16,7 @@ from wearsim.input.schema.lubrication_tables import (
     LubricationPhase,
     LubricationTable,
 )
+from wearsim.lubrication.model import ENDLESS, Dirt, LubricationInput, PhaseInput, RunningWay
 
 
 def lubrication_input(

@@ -6,7 +6,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, create_model, field
 
 from wearsim.catalogue.catalogues import materials, wear_conditions, wear_laws
 from wearsim.contact.stop_limits import CHAIN_LIMITS, LimitKey
-from wearsim.input.schema.table import Table, known, others_of
+from wearsim.input.table import Table, known, others_of
 from wearsim.input.units import Number, Positive, PositiveNumber
 from wearsim.quantities import quantities
 

@@ -2,14 +2,15 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile_points import Vector
-from wearsim.wear.wear_clock import WearClock
+from wearsim.lubrication.law import LubricantLaw
+from wearsim.lubrication.model import LubricationInput, RunningWay
+from wearsim.lubrication.schedule import LubricantEvent, LubricantSchedule, schedule_of
 
 _MOST = 100_000
 """Stretches between two events that a schedule may have before it repeats itself."""
@@ -19,130 +20,6 @@ _ALONG_FADING = 5
 
 _SAME = 1e-14
 """Part of the age up to which two states of a lubricant are one."""
-
-
-@dataclass(frozen=True)
-class LubricantLaw:
-    """The factor on the coefficient of every contact, from the age of the lubricant and from dirt.
-
-    g = (1 + (R - 1) F((s - s_L)/w)) (1 + C), with F(u) = u between 0 and 1. s is the way since the last
-    relubrication, C what dirt adds.
-
-    Equation physics.md (O1).
-
-    Examples
-    --------
-    Half of the way from lubricated to four times that, with half as much again by dirt:
-
-    >>> LubricantLaw(4.0, 100.0, 50.0).factor(125.0, 0.5)
-    3.75
-    """
-
-    dry_factor: float = 1.0  # R, coefficient of dry contacts over that of lubricated ones, at least 1
-    lasts: float = math.inf  # s_L, way on which a lubricant keeps its effect [cycles]
-    fades: float = 0.0  # w, way on which it loses it then [cycles]
-    completeness: float = 1.0  # part of the age that a relubrication takes away
-    dirt_removed: float = 1.0  # part of C that a relubrication takes away
-
-    def factor(self, age: float, dirt: float) -> float:
-        """Return g at an age [cycles] and with what dirt adds."""
-        return (1.0 + (self.dry_factor - 1.0) * self._dried(age)) * (1.0 + dirt)
-
-    def _dried(self, age: float) -> float:
-        if age <= self.lasts:
-            return 0.0
-        return min((age - self.lasts) / self.fades, 1.0) if self.fades > 0.0 else 1.0
-
-    def worn(self, age: float, cycles: float, dirt: float, ageing: float = 1.0) -> float:
-        """Return the integral of g over cycles that begin at an age and each make older by ``ageing``.
-
-        Examples
-        --------
-        100 cycles lubricated, 50 at 2.5 times that in the mean, 10 at four times:
-
-        >>> LubricantLaw(4.0, 100.0, 50.0).worn(0.0, 160.0, 0.0)
-        265.0
-        """
-        excess = (self._dry_way(age + ageing * cycles) - self._dry_way(age)) / ageing
-        return (cycles + (self.dry_factor - 1.0) * excess) * (1.0 + dirt)
-
-    def _dry_way(self, age: float) -> float:
-        """Integral of F up to an age."""
-        beyond = age - self.lasts
-        if not beyond > 0.0:
-            return 0.0
-        if beyond < self.fades:
-            return 0.5 * beyond * beyond / self.fades
-        return beyond - 0.5 * self.fades
-
-    def cycles_for(self, age: float, worn: float, dirt: float, ageing: float = 1.0) -> float:
-        """Return the cycles in which so much wears from an age on, the inverse of ``worn``."""
-        return self._way_for(age, worn * ageing, dirt) / ageing
-
-    def _way_for(self, age: float, worn: float, dirt: float) -> float:
-        left, excess = worn / (1.0 + dirt), self.dry_factor - 1.0
-        fresh = max(self.lasts - age, 0.0)
-        if left <= fresh or excess == 0.0:
-            return left
-        if math.isinf(fresh):
-            return left
-        left, begun = left - fresh, max(age - self.lasts, 0.0)
-        if begun < self.fades:
-            # left = n + excess (begun n + n^2/2)/w, solved for n without a difference of near numbers.
-            slope, rate = excess / self.fades, 1.0 + excess * begun / self.fades
-            fading = 2.0 * left / (rate + math.sqrt(rate * rate + 2.0 * slope * left))
-            if begun + fading <= self.fades:
-                return fresh + fading
-            fading = self.fades - begun
-            left -= fading * (1.0 + excess * 0.5 * (begun + self.fades) / self.fades)
-        else:
-            fading = 0.0
-        return fresh + fading + left / self.dry_factor
-
-    def age_of(self, factor: float, dirt: float) -> float:
-        """Return the age at which g comes to a factor; infinite where it never does.
-
-        Examples
-        --------
-        >>> LubricantLaw(4.0, 100.0, 50.0).age_of(2.5, 0.0)
-        125.0
-        """
-        dry = factor / (1.0 + dirt)
-        if dry <= 1.0:
-            return 0.0
-        if dry > self.dry_factor or math.isinf(self.lasts):
-            return math.inf
-        return self.lasts + self.fades * (dry - 1.0) / (self.dry_factor - 1.0)
-
-
-class LubricantEvent(NamedTuple):
-    """What happens to the lubricant at one time of a schedule."""
-
-    after: float  # cycles from the begin of the schedule
-    relubricated: bool = False
-    held: float | None = None  # what dirt adds at least from here on; None where that stays as it was
-    ageing: float | None = None  # how many cycles a cycle makes older from here on; None as before
-    dirtied: float = 0.0  # what dirt adds at least at this time
-
-
-@dataclass(frozen=True)
-class LubricantSchedule:
-    """What happens to the lubricant, in the order of time, and after how many cycles it begins anew."""
-
-    events: tuple[LubricantEvent, ...] = ()
-    repeats: float = math.inf  # [cycles]
-    # factor g at which contacts are relubricated after the last event; above what dirt alone gives
-    threshold: float = math.inf
-    then_every: float = math.inf  # interval at which they are relubricated after the last event [cycles]
-    # what happens once, before all that, and after how many cycles the schedule begins
-    before: tuple[LubricantEvent, ...] = ()
-    begins: float = 0.0
-
-    @classmethod
-    def every(cls, interval: float, dirt: float, ageing: float) -> "LubricantSchedule":
-        """Return relubrications at an interval [cycles], in dirt that adds so much all the time."""
-        begin = LubricantEvent(0.0, held=dirt, ageing=ageing)
-        return cls((begin, LubricantEvent(interval, relubricated=True)), interval)
 
 
 class _Stretch(NamedTuple):
@@ -456,42 +333,20 @@ FRESH = LubricantClock(LubricantLaw(), LubricantSchedule())
 """A lubricant that stays as it is."""
 
 
-@dataclass(frozen=True, eq=False)
-class LubricatedClock(WearClock):
-    """Between cycles run and the cycles of constant coefficient, where the lubricant changes too.
+def lubricant_clock(
+    given: LubricationInput | None, cycles_per_hour: float, sliding_per_cycle: float
+) -> LubricantClock:
+    """Return the clock of a lubricant, whose age may count what its contacts slide in a cycle [mm]."""
+    if given is None:
+        return FRESH
 
-    Contacts run in by what they wear, so the clock of a part counts the cycles of lubricated contacts.
+    def cycles(way: RunningWay) -> float:
+        if way.sliding and not sliding_per_cycle > 0.0:
+            return math.inf
+        by_sliding = way.sliding / sliding_per_cycle if way.sliding else 0.0
+        return way.hours * cycles_per_hour + by_sliding
 
-    Equation physics.md (O3).
-    """
-
-    part: WearClock
-    lubricant: LubricantClock = FRESH
-
-    @property
-    def is_steady(self) -> bool:
-        """Whether both kinds of cycles are the same."""
-        return self.part.is_steady and self.lubricant is FRESH
-
-    @property
-    def shortest(self) -> float:
-        """As of a part."""
-        return self.part.shortest
-
-    @property
-    def amplification(self) -> float:
-        """Greatest relative error of the cycles run for one of the constant cycles, at most."""
-        return self.part.amplification * self.lubricant.amplification
-
-    def assumption(self) -> str:
-        """Say what is taken for granted of a part; the case says what is of the lubricant."""
-        return self.part.assumption()
-
-    def steady_cycles(self, cycles: float) -> float:
-        """Return the cycles of constant coefficient that wear as much as those run."""
-        return self.part.steady_cycles(self.lubricant.steady_cycles(cycles))
-
-    def running_cycles(self, constant: Vector) -> Vector:
-        """Return the cycles run that wear as much as those of constant coefficient."""
-        lubricated = self.part.running_cycles(constant)
-        return lubricated if self.lubricant is FRESH else self.lubricant.running_cycles(lubricated)
+    law = LubricantLaw(
+        given.dry_factor, cycles(given.lasts), cycles(given.fades), given.completeness, given.dirt_removed
+    )
+    return LubricantClock(law, schedule_of(given, cycles_per_hour, cycles))

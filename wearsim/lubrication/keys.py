@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
 from wearsim.catalogue.catalogues import environments, lubricants
-from wearsim.input.schema.table import Table, known, others_of
+from wearsim.input.table import Table, known, others_of
 from wearsim.input.units import NotNegative, Number, Positive, PositiveNumber
 
 UNITS = ("hours", "km", "sliding_m")

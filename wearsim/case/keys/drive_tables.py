@@ -4,10 +4,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator
 
+from wearsim.case.keys.wear_tables import MaterialTable, WearTable
 from wearsim.catalogue.catalogues import chain_name, chains, known_chain_name, wear_conditions
 from wearsim.geometry.forms import BETWEEN_FORMS, TOOTH_FORMS
-from wearsim.input.schema.table import Table, all_differ, known, others_of
-from wearsim.input.schema.wear_tables import MaterialTable, WearTable
+from wearsim.input.table import Table, all_differ, known, others_of
 from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
 
 

@@ -4,7 +4,7 @@ from typing import Any
 
 from pydantic import ConfigDict, Field, model_validator
 
-from wearsim.input.schema.drive_tables import (
+from wearsim.case.keys.drive_tables import (
     ChainTable,
     DriveTable,
     DutyBlock,
@@ -15,10 +15,8 @@ from wearsim.input.schema.drive_tables import (
     PlaceTable,
     SprocketTable,
 )
-from wearsim.input.schema.lubrication_tables import LubricationTable, with_wear_condition
-from wearsim.input.schema.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
-from wearsim.input.schema.table import FormatVersion, Table, describe
-from wearsim.input.schema.wear_tables import (
+from wearsim.case.keys.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
+from wearsim.case.keys.wear_tables import (
     FilmTable,
     MaterialsTable,
     MaterialTable,
@@ -27,6 +25,8 @@ from wearsim.input.schema.wear_tables import (
     StopTable,
     WearTable,
 )
+from wearsim.input.table import FormatVersion, Table, describe
+from wearsim.lubrication.keys import LubricationTable, with_wear_condition
 
 __all__ = [
     "CaseTables",
