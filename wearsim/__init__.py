@@ -6,74 +6,73 @@ from wearsim._version import __version__
 from wearsim.lazy import lazy_names
 
 _PUBLIC = {
-    "CalibrationResult": "wearsim.python.calibrate",
+    "CalibrationResult": "wearsim.study.calibrate.answer",
     "Case": "wearsim.case.model",
     "CaseError": "wearsim.errors",
-    "ChainReadingsResult": "wearsim.python.chain_readings",
-    "CheckResult": "wearsim.python.check",
+    "ChainReadingsResult": "wearsim.study.remaining.chain_answer",
+    "CheckResult": "wearsim.report.check",
     "ContactError": "wearsim.errors",
     "ConvergenceError": "wearsim.errors",
     "DriveCase": "wearsim.drive.drive_case",
     "DriveLife": "wearsim.drive.drive_result",
-    "ExportResult": "wearsim.python.export",
+    "ExportResult": "wearsim.cad.export",
     "GeometryError": "wearsim.errors",
-    "JudgementResult": "wearsim.python.judge",
+    "JudgementResult": "wearsim.study.judge.answer",
     "Life": "wearsim.result",
-    "LoadsResult": "wearsim.python.loads",
+    "LoadsResult": "wearsim.report.loads_result",
     "LowerBound": "wearsim.result",
-    "LubricationResult": "wearsim.python.lubricate",
-    "MaintenanceResult": "wearsim.python.maintain",
-    "OptimiseResult": "wearsim.python.optimise",
-    "RemainingResult": "wearsim.python.remaining",
-    "SelectionResult": "wearsim.python.select",
-    "SweepResult": "wearsim.python.sweep",
-    "UncertaintyResult": "wearsim.python.uncertainty",
+    "LubricationResult": "wearsim.study.lubricate.answer",
+    "MaintenanceResult": "wearsim.study.maintain.answer",
+    "OptimiseResult": "wearsim.study.optimise.answer",
+    "RemainingResult": "wearsim.study.remaining.answer",
+    "SelectionResult": "wearsim.study.select.answer",
+    "SweepResult": "wearsim.study.sweep.answer",
+    "UncertaintyResult": "wearsim.study.uncertainty.answer",
     "WearResult": "wearsim.result",
     "WearsimError": "wearsim.errors",
-    "calibrate": "wearsim.python.calibrate",
-    "check": "wearsim.python.check",
-    "export": "wearsim.python.export",
-    "judge": "wearsim.python.judge",
+    "calibrate": "wearsim.study.calibrate.answer",
+    "check": "wearsim.report.check",
+    "export": "wearsim.cad.export",
+    "judge": "wearsim.study.judge.answer",
     "load_case": "wearsim.drive.load_case",
-    "loads": "wearsim.python.loads",
-    "lubricate": "wearsim.python.lubricate",
-    "maintain": "wearsim.python.maintain",
-    "optimise": "wearsim.python.optimise",
-    "progress_bar": "wearsim.python.progress",
-    "remaining": "wearsim.python.remaining",
-    "select": "wearsim.python.select",
-    "simulate": "wearsim.python.simulate",
+    "loads": "wearsim.report.loads_result",
+    "lubricate": "wearsim.study.lubricate.answer",
+    "maintain": "wearsim.study.maintain.answer",
+    "optimise": "wearsim.study.optimise.answer",
+    "progress_bar": "wearsim.runner.progress",
+    "remaining": "wearsim.study.remaining.answer",
+    "select": "wearsim.study.select.answer",
+    "simulate": "wearsim.drive.simulate",
     "simulate_many": "wearsim.drive.simulate",
-    "sweep": "wearsim.python.sweep",
-    "uncertainty": "wearsim.python.uncertainty",
+    "sweep": "wearsim.study.sweep.answer",
+    "uncertainty": "wearsim.study.uncertainty.answer",
 }
 
 _FORMER: dict[str, tuple[str, str]] = {}
 """Names of before: what they are called now, and the version that will be without them."""
 
 if TYPE_CHECKING:
+    from wearsim.cad.export import ExportResult, export
     from wearsim.case.model import Case
     from wearsim.drive.drive_case import DriveCase
     from wearsim.drive.drive_result import DriveLife
     from wearsim.drive.load_case import load_case
-    from wearsim.drive.simulate import simulate_many
+    from wearsim.drive.simulate import simulate, simulate_many
     from wearsim.errors import CaseError, ContactError, ConvergenceError, GeometryError, WearsimError
-    from wearsim.python.calibrate import CalibrationResult, calibrate
-    from wearsim.python.chain_readings import ChainReadingsResult
-    from wearsim.python.check import CheckResult, check
-    from wearsim.python.export import ExportResult, export
-    from wearsim.python.judge import JudgementResult, judge
-    from wearsim.python.loads import LoadsResult, loads
-    from wearsim.python.lubricate import LubricationResult, lubricate
-    from wearsim.python.maintain import MaintenanceResult, maintain
-    from wearsim.python.optimise import OptimiseResult, optimise
-    from wearsim.python.progress import progress_bar
-    from wearsim.python.remaining import RemainingResult, remaining
-    from wearsim.python.select import SelectionResult, select
-    from wearsim.python.simulate import simulate
-    from wearsim.python.sweep import SweepResult, sweep
-    from wearsim.python.uncertainty import UncertaintyResult, uncertainty
+    from wearsim.report.check import CheckResult, check
+    from wearsim.report.loads_result import LoadsResult, loads
     from wearsim.result import Life, LowerBound, WearResult
+    from wearsim.runner.progress import progress_bar
+    from wearsim.study.calibrate.answer import CalibrationResult, calibrate
+    from wearsim.study.judge.answer import JudgementResult, judge
+    from wearsim.study.lubricate.answer import LubricationResult, lubricate
+    from wearsim.study.maintain.answer import MaintenanceResult, maintain
+    from wearsim.study.optimise.answer import OptimiseResult, optimise
+    from wearsim.study.remaining.answer import RemainingResult, remaining
+    from wearsim.study.remaining.chain_answer import ChainReadingsResult
+    from wearsim.study.select.answer import SelectionResult, select
+    from wearsim.study.sweep.answer import SweepResult, sweep
+    from wearsim.study.uncertainty.answer import UncertaintyResult, uncertainty
 
 __all__ = [
     "CalibrationResult",

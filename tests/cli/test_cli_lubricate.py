@@ -14,8 +14,9 @@ from tests.drives import LIGHT_WRAP, changed
 from wearsim.cli.main import wearsim_command
 from wearsim.quantities import grouped
 from wearsim.simulation import case_clock
+from wearsim.study.lubricate.answer import LubricationResult
 from wearsim.study.lubricate.runs import lubricate
-from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows, save_lubrication
+from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows
 
 CASES = Path(__file__).parents[2] / "cases"
 STRAND: dict[str, Any] = {
@@ -205,7 +206,8 @@ def test_applied_one_beside_a_supply_of_the_case(tmp_path: Path) -> None:
     assert [plan.supplied for plan in found.plans] == [True, False]
     assert found.plans[1].cheapest.cost == expected.cheapest.cost
     json.dumps(lubrication_json(found), allow_nan=False)
-    save_lubrication(found, tmp_path / "out", force=False)
+    LubricationResult(found).save(tmp_path / "out")
+    assert (tmp_path / "out" / "intervals.csv").exists()
 
 
 @pytest.mark.parametrize(

@@ -380,7 +380,7 @@ def test_not_one_reading_is_refused(wrap, two):
         wearsim.remaining(two, 100, depth=0.1)
 
 
-def test_calibrate(answer, tmp_path, drive):
+def test_calibrate(answer, cli, tmp_path, drive):
     pytest.importorskip("pandera", reason="pandera is not installed")
     import pandas as pd
 
@@ -400,13 +400,16 @@ def test_calibrate(answer, tmp_path, drive):
     assert found.values["value"][0] / found.values["given"][0] == pytest.approx(1.5, rel=0.05)
     assert found.case.wear.coefficient == found.values["value"][0]
     assert list(found.readings["value"]) == [0.009, 0.018]
+    assert cli("calibrate", path, file, "--out", tmp_path / "command").code == 0
+    wearsim.calibrate(path, file).save(tmp_path / "python")
+    assert files_of(tmp_path / "python") == files_of(tmp_path / "command") != {}
     assert is_shown(found, "parts", "values", "readings")
     assert is_drawn(found.plot())
     with pytest.raises(wearsim.CaseError, match=r"^readings:2: quantity"):
         wearsim.calibrate(path, [{**rows[0], "quantity": "depth"}])
 
 
-def test_optimise(answer, drive):
+def test_optimise(answer, cli, tmp_path, drive):
     path = drive()
     width = {"sprocket.face_width_mm": {"low": 8.0, "high": 16.0}}
     path.write_text(
@@ -425,7 +428,72 @@ def test_optimise(answer, drive):
     assert found.cases[0].inputs["sprocket"]["face_width_mm"] == found.designs["sprocket.face_width_mm"][0]
     assert len(found.candidates) == expected["evaluations"] + 1
     assert is_shown(found, "designs", "candidates")
+    assert cli("optimise", path, "--evaluations", 20, "--out", tmp_path / "command").code == 0
+    wearsim.optimise(path, evaluations=20).save(tmp_path / "python")
+    assert files_of(tmp_path / "python") == files_of(tmp_path / "command") != {}
     assert is_drawn(found.plot())
+
+
+def files_of(folder):
+    """Content of every file that a folder shows, shards of a study apart."""
+    shown = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in shown
+        if path.relative_to(folder).parts[0] not in ("shards", "study.json")
+    }
+
+
+@pytest.mark.parametrize(
+    "name", ["maintain", "plan", "lubricate", "judge", "remaining", "sweep", "uncertainty"]
+)
+def test_an_answer_is_saved_as_its_command_does(cli, tmp_path, monkeypatch, wrap, two, drive, name):
+    monkeypatch.chdir(tmp_path)
+    rows = [
+        {"series": name, "cycles": n, "wear_um": rate * n}
+        for name, rate in (("a", 2.0), ("b", 3.0), ("c", 1.5))
+        for n in range(1, 7)
+    ]
+    pd.DataFrame(rows).to_csv("rows.csv", index=False)
+    pd.DataFrame(ROWS).to_csv("chain.csv", index=False)
+    path = drive()
+    (tmp_path / "study.toml").write_text(
+        f'format_version = 1\ncase = "{path.name}"\n[grid]\n"load.speed_rpm" = [80, 120]\n'
+    )
+    oiled = "bicycle-17t-lubricants"
+    coarse = {"sprocket.nodes": 41, "mechanism.phases": 1, "run.life_tolerance": 0.1}
+    settings = [word for key, value in coarse.items() for word in ("--set", f"{key}={value}")]
+    words, function = {
+        "maintain": (("maintain", wrap), lambda: wearsim.maintain(wrap)),
+        "plan": (("maintain", two), lambda: wearsim.maintain(two)),
+        "lubricate": (
+            ("lubricate", oiled, *settings),
+            lambda: wearsim.lubricate(wearsim.load_case(oiled).with_(coarse)),
+        ),
+        "judge": (
+            ("judge", "rows.csv", "--particles", 200),
+            lambda: wearsim.judge("rows.csv", particles=200),
+        ),
+        "remaining": (
+            ("remaining", wrap, "chain.csv"),
+            lambda: wearsim.remaining(wrap, readings="chain.csv"),
+        ),
+        "sweep": (("sweep", "study.toml"), lambda: wearsim.sweep("study.toml")),
+        "uncertainty": (
+            ("uncertainty", path, "--samples", 16),
+            lambda: wearsim.uncertainty(path, samples=16),
+        ),
+    }[name]
+    done = cli(*words, "--out", "command")
+    assert done.code == 0, done.err
+    answer = function()
+    answer.save("python")
+    expected = files_of(tmp_path / "command")
+    assert len(expected) > 2
+    assert files_of(tmp_path / "python") == expected
+    with pytest.raises(wearsim.WearsimError, match="python"):
+        answer.save("python")
+    answer.save("python", force=True)
 
 
 def test_select(answer):

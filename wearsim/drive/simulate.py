@@ -1,8 +1,9 @@
 """Lives of cases of any kind: one sprocket, a pair of gears, a whole drive."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import groupby
-from typing import TYPE_CHECKING, Any, cast
+from os import PathLike
+from typing import TYPE_CHECKING, Any, cast, overload
 
 from wearsim.case.model import Case
 from wearsim.errors import WearsimError
@@ -10,21 +11,76 @@ from wearsim.result import Life, WearResult
 from wearsim.simulation import simulate as simulate_single
 
 if TYPE_CHECKING:
+    from wearsim.drive.case_input import CaseInput
     from wearsim.drive.drive_case import DriveCase
     from wearsim.drive.drive_result import DriveLife
     from wearsim.simulation.batch_lives import CaseLife
 
 
+@overload
+def simulate(case: Case, progress: Callable[[float], None] = ...) -> WearResult: ...
+
+
+@overload
+def simulate(case: "DriveCase", progress: Callable[[float], None] = ...) -> "DriveLife": ...
+
+
+@overload
 def simulate(
-    case: "Case | DriveCase", progress: Callable[[float], None] = lambda part: None
+    case: str | PathLike[str] | Mapping[str, Any], progress: Callable[[float], None] = ...
+) -> "WearResult | DriveLife": ...
+
+
+def simulate(
+    case: "CaseInput", progress: Callable[[float], None] = lambda part: None
 ) -> "WearResult | DriveLife":
-    """Wear all that a case names until the first limit, as `wearsim.simulate` does."""
+    """Wear the sprocket of a case, or all of a drive, until the first limit and return the life.
+
+    Parameters
+    ----------
+    case : Case, DriveCase, path or mapping
+        One sprocket, a gear pair or a whole drive; which of them a file is, only its answer tells.
+    progress : callable, optional
+        Told by a wrap how much of its run is done, from 0 to 1; from 0 again where a run
+        with smaller steps follows.
+
+    Returns
+    -------
+    WearResult or DriveLife
+        Complete: life or lower bound, its band, history and worn flanks; of a drive those of every
+        sprocket, and the life of the chain.
+
+    Raises
+    ------
+    CaseError
+        The chain jumps on new teeth.
+    ContactError
+        The contact leaves its theory or vanishes.
+    ConvergenceError
+        The life would be wrong.
+
+    Examples
+    --------
+    >>> import wearsim
+    >>> case = wearsim.load_case({
+    ...     "format_version": 1,
+    ...     "chain": {"designation": "16B-1"},
+    ...     "sprocket": {"teeth": 20, "profile": "evolute"},
+    ...     "load": {"power_kW": 3, "speed_rpm": 100},
+    ...     "wear": {"condition": "hardened, oiled"},
+    ... })
+    >>> result = wearsim.simulate(case)
+    >>> result.life.hours == result.life.cycles / (60 * 100)
+    True
+    """
     if isinstance(case, Case):
         return simulate_single(case, progress)
     # Not above: one sprocket starts without what only whole drives take.
+    from wearsim.drive.case_input import loaded
     from wearsim.drive.life import drive_life
 
-    return drive_life(case, progress)
+    found = loaded(case)
+    return simulate_single(found, progress) if isinstance(found, Case) else drive_life(found, progress)
 
 
 def simulate_many(

@@ -7,7 +7,6 @@ from wearsim._version import ANSWER_HEAD
 from wearsim.drive.drive_result import CHAIN
 from wearsim.drive.maintenance import DrivePlan
 from wearsim.drive.plan import ReplacementRule, Stop
-from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.drive.plan_words import rule_text
 from wearsim.report.text_lines import row, table_lines
@@ -52,9 +51,11 @@ def plan_json(plan: DrivePlan) -> dict[str, Any]:
     }
 
 
-def save_plan(plan: DrivePlan, folder: Path, force: bool) -> None:
-    """Write policies, their parts and their first stops into a folder, all of it or nothing."""
+def write_plan(plan: DrivePlan, text: str, place: Path) -> None:
+    """Write policies, their parts and their first stops, the words, and the picture into a folder."""
     import pandas as pd
+
+    from wearsim.report.figures import save_figure
 
     rules = plan.rules
     parts = [{"policy": rule.name, **one} for rule in rules for one in _parts(rule)]
@@ -63,10 +64,11 @@ def save_plan(plan: DrivePlan, folder: Path, force: bool) -> None:
         for rule in rules
         for stop in rule.schedule
     ]
-    with new_folder(folder, force) as place:
-        pd.DataFrame([_numbers(rule) for rule in rules]).to_csv(place / "policies.csv", index=False)
-        pd.DataFrame(parts).to_csv(place / "parts.csv", index=False)
-        pd.DataFrame(stops).to_csv(place / "schedule.csv", index=False)
+    pd.DataFrame([_numbers(rule) for rule in rules]).to_csv(place / "policies.csv", index=False)
+    pd.DataFrame(parts).to_csv(place / "parts.csv", index=False)
+    pd.DataFrame(stops).to_csv(place / "schedule.csv", index=False)
+    (place / "maintenance.md").write_text(f"```\n{text}\n```\n", encoding="utf-8")
+    save_figure(plan.found.plot_history(), place, "history")
 
 
 def _numbers(rule: ReplacementRule) -> dict[str, Any]:

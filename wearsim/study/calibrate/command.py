@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.colours import show
+from wearsim.command.answered import Shown, shown_options
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, finite, overrides, print_json, warn, working
+from wearsim.command.options import common_options, finite, overrides, working
 
 if TYPE_CHECKING:
     from wearsim.geometry.measured.registration import Freedom
@@ -49,9 +49,7 @@ if TYPE_CHECKING:
     callback=finite,
     help="Confidence level of the intervals.",
 )
-@click.option("--out", type=click.Path(path_type=Path), help="New folder for tables and pictures.")
-@click.option("--force", is_flag=True, help="Replace an existing folder.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@shown_options("tables and pictures")
 @overrides
 @common_options
 def calibrate(
@@ -61,9 +59,7 @@ def calibrate(
     register: "Freedom",
     cutoff_mm: float,
     confidence: float,
-    out: Path | None,
-    force: bool,
-    as_json: bool,
+    shown: Shown,
     settings: tuple[str, ...],
 ) -> None:
     """Fit the wear coefficients of CASE (.toml) to MEASUREMENTS (.csv), and print the remaining hours.
@@ -79,29 +75,12 @@ def calibrate(
     from wearsim.extras import check_installed
 
     check_installed(("pandera",), "study", "calibrate")
-    if out is not None:
-        from wearsim.files import check_folder
-
-        _check_apart(out, (case, measurements))
-        check_folder(out, force)
+    shown.check(case, measurements)
+    from wearsim.study.calibrate.answer import CalibrationResult
     from wearsim.study.calibrate.calibration import CalibrationOptions
     from wearsim.study.calibrate.model import calibrate as calibrated
-    from wearsim.study.calibrate.sheet import calibration_json, calibration_text, save_calibration
 
     options = CalibrationOptions(shapes, register, cutoff_mm, confidence)
     with working(f"fitting {case.stem}"):
         found = calibrated(case, measurements, settings, options)
-    if as_json:
-        print_json(calibration_json(found), case, found.warnings)
-    else:
-        show(calibration_text(found))
-    if out is not None:
-        save_calibration(found, out, force)
-        warn(f"written to {out}")
-
-
-def _check_apart(out: Path, inputs: tuple[Path, ...]) -> None:
-    """Raise where the folder to be replaced holds what is read."""
-    for path in inputs:
-        if path.resolve().is_relative_to(out.resolve()):
-            raise click.UsageError(f"--out {out} must not be the folder of {path}: choose another place")
+    shown.save(CalibrationResult(found), case)

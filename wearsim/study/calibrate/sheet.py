@@ -9,7 +9,6 @@ import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain
-from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result.folder import with_files
@@ -108,22 +107,21 @@ def values_table(found: Calibration) -> pd.DataFrame:
     return pd.DataFrame([_value(one) for one in found.values])
 
 
-def save_calibration(found: Calibration, folder: Path, force: bool) -> None:
-    """Write tables, pictures and the case with the fitted values, all of it or nothing."""
+def write_calibration(found: Calibration, place: Path) -> None:
+    """Write tables, pictures and the case with the fitted values into a folder."""
     from wearsim.report.figures import save_figure
     from wearsim.study.calibrate.figure import calibration_figures
 
-    with new_folder(folder, force) as place:
-        readings_table(found).to_csv(place / "fit.csv", index=False)
-        values_table(found).to_csv(place / "fitted_values.csv", index=False)
-        summary = f"```\n{calibration_text(found)}\n```\n"
-        (place / "summary.md").write_text(summary, encoding="utf-8")
-        (place / "calibrated.toml").write_text(_case(found), encoding="utf-8")
-        for path in found.case.files:
-            (place / "inputs").mkdir(exist_ok=True)
-            (place / "inputs" / path.name).write_bytes(path.read_bytes())
-        for name, figure in calibration_figures(found).items():
-            save_figure(figure, place, name)
+    readings_table(found).to_csv(place / "fit.csv", index=False)
+    values_table(found).to_csv(place / "fitted_values.csv", index=False)
+    summary = f"```\n{calibration_text(found)}\n```\n"
+    (place / "summary.md").write_text(summary, encoding="utf-8")
+    (place / "calibrated.toml").write_text(_case(found), encoding="utf-8")
+    for path in found.case.files:
+        (place / "inputs").mkdir(exist_ok=True)
+        (place / "inputs" / path.name).write_bytes(path.read_bytes())
+    for name, figure in calibration_figures(found).items():
+        save_figure(figure, place, name)
 
 
 def _case(found: Calibration) -> str:

@@ -8,7 +8,6 @@ import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain
-from wearsim.files import new_folder
 from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 from wearsim.study.judge.model import FittedConstant, JudgedLaw, Judgement
 
@@ -145,15 +144,14 @@ def forecasts_table(found: Judgement) -> pd.DataFrame:
     )
 
 
-def save_judgement(found: Judgement, source: Path, folder: Path, force: bool) -> None:
-    """Write tables and the picture, all of it or nothing."""
+def write_judgement(found: Judgement, title: str, place: Path) -> None:
+    """Write tables and the picture into a folder."""
     from wearsim.report.figures import save_figure
     from wearsim.study.judge.figure import judgement_figure
 
-    with new_folder(folder, force) as place:
-        laws_table(found).to_csv(place / "laws.csv", index=False)
-        constants_table(found).to_csv(place / "constants.csv", index=False)
-        forecasts_table(found).to_csv(place / "forecasts.csv", index=False)
-        summary = f"```\n{judgement_text(found)}\n```\n"
-        (place / "summary.md").write_text(summary, encoding="utf-8")
-        save_figure(judgement_figure(found, source.stem), place, "judgement")
+    laws_table(found).to_csv(place / "laws.csv", index=False)
+    constants_table(found).to_csv(place / "constants.csv", index=False)
+    forecasts_table(found).to_csv(place / "forecasts.csv", index=False)
+    summary = f"```\n{judgement_text(found)}\n```\n"
+    (place / "summary.md").write_text(summary, encoding="utf-8")
+    save_figure(judgement_figure(found, title), place, "judgement")

@@ -7,7 +7,6 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain
-from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 from wearsim.study.lubricate.intervals import MissedRelubrication, RelubricationPolicy
@@ -195,14 +194,13 @@ def _cells(study: LubricationStudy, plan: LubricantPlan, policy: RelubricationPo
     yield "-" if policy.cost is None else grouped(policy.cost)
 
 
-def save_lubrication(study: LubricationStudy, folder: Path, force: bool) -> None:
-    """Write table and picture into a folder, all of it or nothing."""
+def write_lubrication(study: LubricationStudy, place: Path) -> None:
+    """Write table and picture into a folder."""
     import pandas as pd
 
     from wearsim.report.figures import save_figure
     from wearsim.study.lubricate.figure import lubrication_figure
 
-    with new_folder(folder, force) as place:
-        pd.DataFrame(policy_rows(study)).to_csv(place / "intervals.csv", index=False)
-        (place / "lubrication.txt").write_text(lubrication_text(study) + "\n", encoding="utf-8")
-        save_figure(lubrication_figure(study), place, "lubrication")
+    pd.DataFrame(policy_rows(study)).to_csv(place / "intervals.csv", index=False)
+    (place / "lubrication.txt").write_text(lubrication_text(study) + "\n", encoding="utf-8")
+    save_figure(lubrication_figure(study), place, "lubrication")

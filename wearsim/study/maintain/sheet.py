@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 from wearsim.result import Life, LowerBound, life_keys
@@ -96,19 +95,18 @@ def maintenance_page(plan: MaintenancePlan) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def save_maintenance(plan: MaintenancePlan, folder: Path, force: bool) -> None:
-    """Write tables and picture into a folder, all of it or nothing."""
+def write_maintenance(plan: MaintenancePlan, place: Path) -> None:
+    """Write tables and picture into a folder."""
     import pandas as pd
 
     from wearsim.report.figures import save_figure
     from wearsim.study.maintain.figure import maintenance_figure
 
-    with new_folder(folder, force) as place:
-        pd.DataFrame(policy_rows(plan)).to_csv(place / "policies.csv", index=False)
-        if plan.counts:
-            pd.DataFrame(count_rows(plan)).to_csv(place / "tooth_counts.csv", index=False)
-        (place / "maintenance.md").write_text(maintenance_page(plan), encoding="utf-8")
-        save_figure(maintenance_figure(plan), place, "maintenance")
+    pd.DataFrame(policy_rows(plan)).to_csv(place / "policies.csv", index=False)
+    if plan.counts:
+        pd.DataFrame(count_rows(plan)).to_csv(place / "tooth_counts.csv", index=False)
+    (place / "maintenance.md").write_text(maintenance_page(plan), encoding="utf-8")
+    save_figure(maintenance_figure(plan), place, "maintenance")
 
 
 def _known(value: float, policy: ReplacementPolicy) -> float | None:

@@ -61,19 +61,19 @@ def optimise(
         optimise_json,
         optimise_text,
         optimise_warnings,
-        save_candidates,
-        save_optimise,
+        write_candidates,
+        write_optimise,
     )
 
     if options.out is not None:
-        save_candidates(outcome, options.out)
+        write_candidates(outcome, options.out)
     check_feasible(study, outcome.candidates)
     if as_json:
         print_json(optimise_json(outcome), case, optimise_warnings(outcome))
     else:
         show(optimise_text(outcome))
     if options.out is not None:
-        save_optimise(outcome, options.out)
+        write_optimise(outcome, options.out)
         warn(f"written to {options.out}")
     return 0
 

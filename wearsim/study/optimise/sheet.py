@@ -211,13 +211,13 @@ def _plain(outcome: OptimiseOutcome, one: Candidate) -> dict[str, Any]:
     }
 
 
-def save_candidates(outcome: OptimiseOutcome, folder: Path) -> None:
+def write_candidates(outcome: OptimiseOutcome, folder: Path) -> None:
     """Write the table of all designs that were tried into the folder of a study."""
     tried = candidates_table(outcome, (outcome.unchanged, *outcome.candidates))
     save_files(folder, {"candidates.csv": tried.to_csv(index=False)})
 
 
-def save_optimise(outcome: OptimiseOutcome, folder: Path) -> None:
+def write_optimise(outcome: OptimiseOutcome, folder: Path) -> None:
     """Write the best designs, as a table, as pictures and as cases, into the folder of a study."""
     from wearsim.study.optimise.figure import optimise_figures
 

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.files import new_folder
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.study.remaining.chain_readings import GAUGE
@@ -111,18 +110,17 @@ def reading_rows(found: ChainState) -> list[dict[str, Any]]:
     ]
 
 
-def save_chain(found: ChainState, folder: Path, force: bool) -> None:
-    """Write tables, summary and picture, all of it or nothing."""
+def write_chain(found: ChainState, place: Path) -> None:
+    """Write tables, summary and picture into a folder."""
     import pandas as pd
 
     from wearsim.report.figures import save_figure
     from wearsim.study.remaining.figure import chain_figure
 
-    with new_folder(folder, force) as place:
-        pd.DataFrame(interval_rows(found)).to_csv(place / "intervals.csv", index=False)
-        pd.DataFrame(reading_rows(found)).to_csv(place / "readings.csv", index=False)
-        (place / "summary.md").write_text(f"```\n{chain_text(found)}\n```\n", encoding="utf-8")
-        save_figure(chain_figure(found), place, "readings")
+    pd.DataFrame(interval_rows(found)).to_csv(place / "intervals.csv", index=False)
+    pd.DataFrame(reading_rows(found)).to_csv(place / "readings.csv", index=False)
+    (place / "summary.md").write_text(f"```\n{chain_text(found)}\n```\n", encoding="utf-8")
+    save_figure(chain_figure(found), place, "readings")
 
 
 def _intervals(one: Quantiles) -> str:

@@ -1,28 +1,12 @@
 """``wearsim remaining``: what is left of a life after readings in service."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.colours import show
+from wearsim.command.answered import Shown, shown_options
 from wearsim.command.complete import CasePath
-from wearsim.command.options import (
-    common_options,
-    error_json,
-    finite,
-    load_cases,
-    overrides,
-    print_json,
-    warn,
-    working,
-)
-from wearsim.errors import WearsimError
-
-if TYPE_CHECKING:
-    pass
+from wearsim.command.options import common_options, finite, load_cases, overrides, working
 
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
@@ -77,9 +61,7 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
     callback=finite,
     help="Error of an elongation, plus or minus; in READINGS, the default standard deviation.",
 )
-@click.option("--out", type=click.Path(path_type=Path), help="New folder for tables and a picture.")
-@click.option("--force", is_flag=True, help="Replace an existing folder.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@shown_options("tables and a picture")
 @overrides
 @common_options
 def remaining(
@@ -91,9 +73,7 @@ def remaining(
     elongation: float | None,
     reading_error_mm: float,
     reading_error_percent: float,
-    out: Path | None,
-    force: bool,
-    as_json: bool,
+    shown: Shown,
     settings: tuple[str, ...],
 ) -> None:
     """Print the remaining hours of CASE; readings replace its wear coefficient.
@@ -110,65 +90,32 @@ def remaining(
     if readings is not None:
         if given or hours is not None:
             raise click.UsageError("READINGS hold hours and values: leave out --hours and the like")
-        _of_chain(case, readings, reading_error_percent, out, force, as_json, settings)
+        shown.check(case, readings)
+        (loaded,) = load_cases([case], settings, shown.as_json)
+        from wearsim.study.remaining.answer import remaining as left
+
+        with shown.failing(case.stem):
+            of_chain = left(loaded, readings=readings, error=reading_error_percent)
+        shown.save(of_chain, case)
         return
     if hours is None:
         raise click.UsageError("give READINGS, or --hours and one reading")
     if len(given) != 1:
         raise click.UsageError("give exactly one of --depth-mm, --over-pins-mm, --elongation")
-    if out is not None:
+    if shown.out is not None:
         raise click.UsageError("--out needs READINGS: one reading has neither table nor picture")
-    (loaded,) = load_cases([case], settings, as_json)
-    from wearsim.drive.drive_case import chain_case
-    from wearsim.study.remaining.model import DEPTH, ELONGATION, OVER_PINS, SingleReading, remaining_life
-    from wearsim.study.remaining.sheet import remaining_json, remaining_text
+    (loaded,) = load_cases([case], settings, shown.as_json)
+    from wearsim.study.remaining.answer import remaining as left
 
-    quantity = DEPTH if depth_mm is not None else ELONGATION if elongation is not None else OVER_PINS
     error = reading_error_percent if elongation is not None else reading_error_mm
-    with _failing(case, as_json), working(f"wearing {loaded.title}") as report_progress:
-        found = remaining_life(loaded, SingleReading(quantity, given[0], error, hours), report_progress)
-    if as_json:
-        content = remaining_json(found, chain_case(loaded).inputs)
-        print_json(content, case, found.warnings)
-    else:
-        show(remaining_text(found, chain_case(loaded).inputs))
-
-
-def _of_chain(
-    case: Path,
-    readings: Path,
-    usual_error: float,
-    out: Path | None,
-    force: bool,
-    as_json: bool,
-    settings: tuple[str, ...],
-) -> None:
-    """Answer a table of readings."""
-    if out is not None:
-        from wearsim.files import check_folder
-
-        check_folder(out, force)
-    (loaded,) = load_cases([case], settings, as_json)
-    from wearsim.study.remaining.chain_sheet import chain_json, chain_text, save_chain
-    from wearsim.study.remaining.chain_state import chain_state
-
-    with _failing(case, as_json):
-        found = chain_state(loaded, readings, usual_error)
-    if as_json:
-        print_json(chain_json(found), case, found.warnings)
-    else:
-        show(chain_text(found))
-    if out is not None:
-        save_chain(found, out, force)
-        warn(f"written to {out}")
-
-
-@contextmanager
-def _failing(case: Path, as_json: bool) -> Iterator[None]:
-    """Print an error as JSON too, where that is asked for."""
-    try:
-        yield
-    except WearsimError as fault:
-        if as_json:
-            click.echo(error_json(case.stem, fault))
-        raise
+    with shown.failing(case.stem), working(f"wearing {loaded.title}") as progress:
+        answer = left(
+            loaded,
+            hours,
+            depth=depth_mm,
+            over_pins=over_pins_mm,
+            elongation_percent=elongation,
+            error=error,
+            progress=progress,
+        )
+    shown.show(answer, case)

@@ -72,10 +72,10 @@ def sensitivity(
         doubled = doubling(scattered, found)
     from wearsim.study.sensitivity.sheet import (
         SensitivityAnswer,
-        save_sensitivity,
         sensitivity_json,
         sensitivity_text,
         sensitivity_warnings,
+        write_sensitivity,
     )
 
     doubts = sensitivity_warnings(found, scattered.case)
@@ -85,6 +85,6 @@ def sensitivity(
     else:
         show(sensitivity_text(answer))
     if options.out is not None:
-        save_sensitivity(answer, table, options.out)
+        write_sensitivity(answer, table, options.out)
         warn(f"written to {options.out}")
     return 0

@@ -128,7 +128,7 @@ def sensitivity_json(answer: SensitivityAnswer) -> dict[str, Any]:
     }
 
 
-def save_sensitivity(answer: SensitivityAnswer, table: pd.DataFrame, folder: Path) -> None:
+def write_sensitivity(answer: SensitivityAnswer, table: pd.DataFrame, folder: Path) -> None:
     """Write tables and the tornado into the folder of a study."""
     texts = {
         "cases.csv": table.to_csv(index=False),

@@ -32,11 +32,11 @@ def sweep(study: Path, as_json: bool, options: StudyOptions, settings: tuple[str
     table = run(loaded.design, options, identity, f"sweeping {loaded.title}")
     if table is None:
         return 0
-    from wearsim.study.sweep.sheet import save_sweep, sweep_json, sweep_text
+    from wearsim.study.sweep.sheet import sweep_json, sweep_text, write_sweep
 
     for line in sweep_json(loaded, table) if as_json else [sweep_text(loaded, table)]:
         click.echo(line)
     if options.out is not None:
-        save_sweep(loaded, table, options.out)
+        write_sweep(loaded, table, options.out)
         warn(f"written to {options.out}")
     return exit_code(table)

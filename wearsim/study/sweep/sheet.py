@@ -39,7 +39,7 @@ def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
     return lines
 
 
-def save_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> None:
+def write_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> None:
     """Write the table and the pictures of a sweep into its folder."""
     from wearsim.study.sweep.figure import sweep_figures
 

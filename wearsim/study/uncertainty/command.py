@@ -85,7 +85,7 @@ def uncertainty(
     if table is None:
         return 0
     from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer, uncertainty_warnings
-    from wearsim.study.uncertainty.sheet import save_uncertainty, uncertainty_json, uncertainty_text
+    from wearsim.study.uncertainty.sheet import uncertainty_json, uncertainty_text, write_uncertainty
 
     code, answer = exit_code(table), UncertaintyAnswer(study, table)
     if cross_check:
@@ -95,7 +95,7 @@ def uncertainty(
     else:
         show(uncertainty_text(answer))
     if options.out is not None:
-        save_uncertainty(answer, options.out)
+        write_uncertainty(answer, options.out)
         warn(f"written to {options.out}")
     missed = _missed(answer, require_hours)
     return code or missed

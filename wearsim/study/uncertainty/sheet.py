@@ -89,7 +89,7 @@ def uncertainty_json(answer: UncertaintyAnswer) -> dict[str, Any]:
     return content
 
 
-def save_uncertainty(answer: UncertaintyAnswer, folder: Path) -> None:
+def write_uncertainty(answer: UncertaintyAnswer, folder: Path) -> None:
     """Write tables and pictures into the folder of a study."""
     from wearsim.study.uncertainty.figure import uncertainty_figures
 

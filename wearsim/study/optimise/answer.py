@@ -3,22 +3,29 @@
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from wearsim.case.model import Case
+from wearsim.drive.case_input import CaseInput, with_table
 from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import Range, check_ranges
-from wearsim.python.answer import DrawnAnswer
-from wearsim.python.case_input import CaseInput, with_table
-from wearsim.python.study_run import SEED, THREADS, Progress, silent, threads_of
+from wearsim.report.public_answer import DrawnAnswer
 from wearsim.runner.design import Design
+from wearsim.runner.in_threads import SEED, THREADS, Progress, silent, threads_of
 from wearsim.runner.run_study import run_study
 from wearsim.runner.workers import SharedWorkers
 from wearsim.study.optimise.model import load_optimise
 from wearsim.study.optimise.search import best_designs, check_library
-from wearsim.study.optimise.sheet import candidates_table, optimise_json, optimise_text
+from wearsim.study.optimise.sheet import (
+    candidates_table,
+    optimise_json,
+    optimise_text,
+    write_candidates,
+    write_optimise,
+)
 from wearsim.study.optimise.trials import OptimiseOutcome, check_feasible
 
 if TYPE_CHECKING:
@@ -105,6 +112,10 @@ class OptimiseResult(DrawnAnswer):
         from wearsim.study.optimise.figure import optimise_figures
 
         return optimise_figures(self.outcome)
+
+    def _write(self, place: Path) -> None:
+        write_candidates(self.outcome, place)
+        write_optimise(self.outcome, place)
 
 
 def optimise(

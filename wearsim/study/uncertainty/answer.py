@@ -2,19 +2,20 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from wearsim.drive.case_input import CaseInput, with_table
 from wearsim.errors import Allowed, Range, check_ranges
-from wearsim.python.answer import DrawnAnswer, table_of
-from wearsim.python.case_input import CaseInput, with_table
-from wearsim.python.study_run import SEED, THREADS, Progress, run, silent
 from wearsim.quantities import grouped
+from wearsim.report.public_answer import DrawnAnswer, table_of
+from wearsim.runner.in_threads import SEED, THREADS, Progress, run, silent
 from wearsim.runner.run_study import failures
 from wearsim.study.uncertainty.model import METHODS, Method, load_uncertainty
 from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
-from wearsim.study.uncertainty.sheet import uncertainty_json, uncertainty_text
+from wearsim.study.uncertainty.sheet import uncertainty_json, uncertainty_text, write_uncertainty
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -111,6 +112,9 @@ class UncertaintyResult(DrawnAnswer):
         from wearsim.study.uncertainty.figure import uncertainty_figures
 
         return uncertainty_figures(self.answer)
+
+    def _write(self, place: Path) -> None:
+        write_uncertainty(self.answer, place)
 
 
 def uncertainty(

@@ -2,18 +2,20 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
+from wearsim.drive.case_input import CaseInput, loaded, with_table
 from wearsim.drive.life import drive_life
 from wearsim.drive.maintenance import DrivePlan, drive_plan
-from wearsim.python.answer import DrawnAnswer, table_of
-from wearsim.python.case_input import CaseInput, loaded, with_table
-from wearsim.python.study_run import Progress, silent
-from wearsim.report.drive.plan_sheet import plan_json, plan_text
+from wearsim.report.drive.plan_sheet import plan_json, plan_text, write_plan
+from wearsim.report.public_answer import DrawnAnswer, table_of
+from wearsim.runner.in_threads import Progress, silent
 from wearsim.study.maintain.model import MaintenancePlan
 from wearsim.study.maintain.model import maintain as compare_policies
-from wearsim.study.maintain.sheet import maintenance_json, maintenance_text
+from wearsim.study.maintain.sheet import maintenance_json, maintenance_text, write_maintenance
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -30,9 +32,12 @@ class MaintenanceResult(DrawnAnswer):
     ----------
     plan : MaintenancePlan or DrivePlan
         Of one sprocket, or of a whole drive.
+    source : str
+        What the case was given as, which the text names; empty where it was no file.
     """
 
     plan: MaintenancePlan | DrivePlan
+    source: str = ""
 
     @property
     def title(self) -> str:
@@ -54,7 +59,7 @@ class MaintenanceResult(DrawnAnswer):
         """What ``wearsim maintain`` prints."""
         if isinstance(self.plan, MaintenancePlan):
             return maintenance_text(self.plan)
-        return plan_text(self.plan, self.plan.drive.name)
+        return plan_text(self.plan, self.source or self.plan.drive.name)
 
     @property
     def policies(self) -> "pd.DataFrame":
@@ -118,6 +123,12 @@ class MaintenanceResult(DrawnAnswer):
 
         return {"maintenance": maintenance_figure(self.plan)}
 
+    def _write(self, place: Path) -> None:
+        if isinstance(self.plan, MaintenancePlan):
+            write_maintenance(self.plan, place)
+        else:
+            write_plan(self.plan, self.text, place)
+
 
 def maintain(
     case: CaseInput, maintenance: Mapping[str, Any] | None = None, *, progress: Progress = silent
@@ -150,4 +161,5 @@ def maintain(
     if isinstance(found, Case):
         found.drive.check(found)
         return MaintenanceResult(compare_policies(found, lambda done, of, what: progress(done / of)))
-    return MaintenanceResult(drive_plan(drive_life(found, progress).complete()))
+    source = str(case) if isinstance(case, str | PathLike) else ""
+    return MaintenanceResult(drive_plan(drive_life(found, progress).complete()), source)

@@ -13,14 +13,14 @@ from wearsim.cad.wheel_drawing import wheel_points
 from wearsim.cad.wheel_formats import check_solid
 from wearsim.cad.wheel_formats import export as content
 from wearsim.case.model import Case
+from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import DriveLife
 from wearsim.errors import CaseError, Fault, OutputError, check_ranges
 from wearsim.files import check_free, write_file
 from wearsim.geometry.wheel_outline import State
-from wearsim.python.answer import Answer
-from wearsim.python.case_input import CaseInput, loaded
 from wearsim.report.flank_view import case_of
+from wearsim.report.public_answer import Answer
 from wearsim.report.worn_flank import wheel_shapes
 from wearsim.result import WearResult
 from wearsim.simulation import simulate

@@ -3,12 +3,13 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.errors import Allowed, Range, check_ranges
-from wearsim.python.answer import DrawnAnswer
-from wearsim.python.readings_file import readings_file
-from wearsim.python.study_run import Progress, silent
+from wearsim.input.readings_file import readings_file
+from wearsim.report.public_answer import DrawnAnswer
+from wearsim.runner.in_threads import Progress, silent
 from wearsim.study.judge.model import PARTICLES, Judgement, judge_series
 from wearsim.study.judge.series_file import read_series
 from wearsim.study.judge.sheet import (
@@ -18,6 +19,7 @@ from wearsim.study.judge.sheet import (
     judgement_text,
     laws_table,
     verdict,
+    write_judgement,
 )
 
 if TYPE_CHECKING:
@@ -103,6 +105,9 @@ class JudgementResult(DrawnAnswer):
         from wearsim.study.judge.figure import judgement_figure
 
         return {"judgement": judgement_figure(self.found, self.title)}
+
+    def _write(self, place: Path) -> None:
+        write_judgement(self.found, self.title, place)
 
 
 def judge(

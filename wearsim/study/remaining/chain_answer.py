@@ -1,11 +1,18 @@
 """The state of a chain from a table of readings."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wearsim.python.answer import DrawnAnswer, table_of
 from wearsim.quantities import grouped
-from wearsim.study.remaining.chain_sheet import chain_json, chain_text, interval_rows, reading_rows
+from wearsim.report.public_answer import DrawnAnswer, table_of
+from wearsim.study.remaining.chain_sheet import (
+    chain_json,
+    chain_text,
+    interval_rows,
+    reading_rows,
+    write_chain,
+)
 from wearsim.study.remaining.chain_state import ChainState
 
 if TYPE_CHECKING:
@@ -82,3 +89,6 @@ class ChainReadingsResult(DrawnAnswer):
         from wearsim.study.remaining.figure import chain_figure
 
         return {"readings": chain_figure(self.found)}
+
+    def _write(self, place: Path) -> None:
+        write_chain(self.found, place)

@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from wearsim.drive.case_input import CaseInput, given_input, loaded
 from wearsim.errors import check_ranges
 from wearsim.input.changes import changed, plain_value
 from wearsim.input.document import GivenInput
 from wearsim.input.units import in_unit_of
-from wearsim.python.answer import DrawnAnswer
-from wearsim.python.case_input import CaseInput, given_input, loaded
-from wearsim.python.study_run import THREADS, Progress, run, silent
 from wearsim.quantities import grouped
+from wearsim.report.public_answer import DrawnAnswer
 from wearsim.report.text_lines import counts_by_kind
+from wearsim.runner.in_threads import THREADS, Progress, run, silent
 from wearsim.runner.run_study import failures
 from wearsim.study.sweep.model import Sweep, load_sweep
-from wearsim.study.sweep.sheet import sweep_json, sweep_text
+from wearsim.study.sweep.sheet import sweep_json, sweep_text, write_sweep
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -103,6 +103,9 @@ class SweepResult(DrawnAnswer):
         from wearsim.study.sweep.figure import sweep_figures
 
         return sweep_figures(self.study, self.cases)
+
+    def _write(self, place: Path) -> None:
+        write_sweep(self.study, self.cases, place)
 
 
 def sweep(

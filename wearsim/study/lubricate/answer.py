@@ -1,15 +1,16 @@
 """When to lubricate again, and which lubricant pays."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wearsim.python.answer import DrawnAnswer, table_of
-from wearsim.python.case_input import CaseInput, loaded
-from wearsim.python.study_run import Progress, silent
+from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.quantities import grouped
+from wearsim.report.public_answer import DrawnAnswer, table_of
+from wearsim.runner.in_threads import Progress, silent
 from wearsim.study.lubricate.model import LubricationStudy
 from wearsim.study.lubricate.runs import lubricate as compare_intervals
-from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows
+from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows, write_lubrication
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -89,6 +90,9 @@ class LubricationResult(DrawnAnswer):
         from wearsim.study.lubricate.figure import lubrication_figure
 
         return {"lubrication": lubrication_figure(self.study)}
+
+    def _write(self, place: Path) -> None:
+        write_lubrication(self.study, place)
 
 
 def lubricate(case: CaseInput, *, progress: Progress = silent) -> LubricationResult:

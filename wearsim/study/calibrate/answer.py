@@ -3,20 +3,26 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
+from wearsim.drive.case_input import CaseInput, given_input, loaded
 from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.extras import check_installed
 from wearsim.geometry.measured.registration import Freedom
-from wearsim.python.answer import DrawnAnswer, table_of
-from wearsim.python.case_input import CaseInput, given_input, loaded
-from wearsim.python.readings_file import readings_file
+from wearsim.input.readings_file import readings_file
 from wearsim.quantities import grouped
+from wearsim.report.public_answer import DrawnAnswer, table_of
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
 from wearsim.study.calibrate.model import calibrate as fitted
-from wearsim.study.calibrate.sheet import calibration_json, calibration_text, readings_table
+from wearsim.study.calibrate.sheet import (
+    calibration_json,
+    calibration_text,
+    readings_table,
+    write_calibration,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -107,6 +113,9 @@ class CalibrationResult(DrawnAnswer):
         from wearsim.study.calibrate.figure import calibration_figures
 
         return calibration_figures(self.found)
+
+    def _write(self, place: Path) -> None:
+        write_calibration(self.found, place)
 
 
 def calibrate(

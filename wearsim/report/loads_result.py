@@ -4,14 +4,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
+from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.drive.drive_case import DriveCase, single_cases
 from wearsim.errors import Range, check_ranges
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads, tooth_loads
-from wearsim.python.answer import Answer, table_of
-from wearsim.python.case_input import CaseInput, loaded
 from wearsim.quantities import grouped
 from wearsim.report.drive.layout import loads_json_of, loads_text
 from wearsim.report.loads_table import loads_json
+from wearsim.report.public_answer import Answer, table_of
 
 if TYPE_CHECKING:
     import pandas as pd

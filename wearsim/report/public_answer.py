@@ -3,9 +3,12 @@
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from html import escape
+from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.errors import StudyError
+from wearsim.files import new_folder
 from wearsim.notebook import html_rows, one_line
 
 if TYPE_CHECKING:
@@ -50,6 +53,11 @@ class Answer(ABC):
             Plain numbers, strings, lists and None; never nan.
         """
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful about it."""
+        return tuple(self.summary().get("warnings", ()))
+
     @abstractmethod
     def tables(self) -> "Mapping[str, pd.DataFrame]":
         """Return all tables of the answer.
@@ -80,7 +88,7 @@ class Answer(ABC):
 
 
 class DrawnAnswer(Answer):
-    """An answer with pictures."""
+    """An answer with pictures, which its command writes into a folder."""
 
     @abstractmethod
     def pictures(self) -> "Mapping[str, Figure]":
@@ -118,6 +126,28 @@ class DrawnAnswer(Answer):
             names = ", ".join(drawn) or "there are none"
             raise StudyError(f"plot: must name one of the pictures: {names} (got {name!r})")
         return shown(drawn[chosen])
+
+    @abstractmethod
+    def _write(self, place: Path) -> None:
+        """Write tables, words and pictures into an empty folder."""
+
+    def save(self, folder: str | PathLike[str], force: bool = False) -> None:
+        """Write the answer into a folder as the command does with ``--out``, all of it or nothing.
+
+        Parameters
+        ----------
+        folder : path
+            New folder for tables, words and pictures.
+        force : bool
+            Replace a folder that is there, if wearsim wrote it.
+
+        Raises
+        ------
+        OutputError
+            The folder is there, or cannot be written.
+        """
+        with new_folder(Path(folder), force) as place:
+            self._write(place)
 
 
 def _html_table(table: "pd.DataFrame") -> str:

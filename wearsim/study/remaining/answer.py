@@ -6,15 +6,15 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any, overload
 
 from wearsim.case.model import Case
+from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.drive.drive_case import chain_case
 from wearsim.errors import Allowed, Range, check_ranges
-from wearsim.python.answer import Answer, table_of
-from wearsim.python.case_input import CaseInput, loaded
-from wearsim.python.chain_readings import ChainReadingsResult
-from wearsim.python.readings_file import readings_file
-from wearsim.python.study_run import Progress, silent
+from wearsim.input.readings_file import readings_file
+from wearsim.report.public_answer import Answer, table_of
 from wearsim.result import Life, LowerBound
 from wearsim.result.lives import hours as in_hours
+from wearsim.runner.in_threads import Progress, silent
+from wearsim.study.remaining.chain_answer import ChainReadingsResult
 from wearsim.study.remaining.chain_state import chain_state
 from wearsim.study.remaining.model import (
     DEPTH,
