@@ -403,6 +403,9 @@ def test_a_failed_part_stands_in_the_folder_and_the_comparison(cli, idler_fails,
     done = cli("life", idler_fails, "--out", tmp_path / "run", "--explain")
     assert done.code == 5 and "no life: the rollers are not found" in done.out.replace("\n             ", " ")
     assert json.loads((tmp_path / "run" / "drive.json").read_text())["sprockets"][1]["error"]
+    again = cli("compare", tmp_path / "run")
+    assert again.code == 5 and again.out == cli("compare", idler_fails).out
+    assert "nothing is known of tensioner" in again.out
     other = tmp_path / "other.toml"
     other.write_text(idler_fails.read_text())
     compared = cli("compare", idler_fails, other)

@@ -2,6 +2,7 @@
 
 import json
 import math
+import shutil
 
 import pandas as pd
 import pytest
@@ -171,6 +172,87 @@ def test_folder_of_a_drive_runs_again(cli, tmp_path, two_sprockets):
     assert last["time_hours"] == pytest.approx(stored["sprockets"][1]["sprocket_life_hours"], rel=1e-9)
     flank = pd.read_csv(out / "flank.csv")
     assert set(flank["sprocket"]) == {"driver", "roll"}
+
+
+@pytest.fixture(scope="module")
+def run_of_two(tmp_path_factory, two_sprockets):
+    """Folder of the run of a drive, and the result that it holds."""
+    folder = tmp_path_factory.mktemp("run_of_two")
+    (folder / "drive.toml").write_text(two_sprockets)
+    result = wearsim.simulate(folder / "drive.toml")
+    result.save(folder / "run")
+    return folder / "run", result
+
+
+def test_run_of_a_drive_is_read_back_number_by_number(run_of_two):
+    folder, result = run_of_two
+    again = wearsim.DriveLife.load(folder)
+    assert again.summary() == result.summary()
+    assert again.history.equals(result.history) and again.flank.equals(result.flank)
+    assert (again.first, again.ends, again.warnings) == (result.first, result.ends, result.warnings)
+
+
+def test_commands_take_the_run_of_a_drive(cli, run_of_two, tmp_path):
+    folder, _ = run_of_two
+    case = folder.parent / "drive.toml"
+    assert cli("report", folder, "--out", tmp_path / "run.html").code == 0
+    assert cli("report", case, "--out", tmp_path / "case.html").code == 0
+    assert (tmp_path / "run.html").read_bytes() == (tmp_path / "case.html").read_bytes()
+    assert cli("compare", folder).out == cli("compare", case).out != ""
+    assert cli("export", folder, "--out", tmp_path / "run").code == 0
+    assert cli("export", case, "--out", tmp_path / "case", "--state", "both").code == 0
+    for name in ("driver.dxf", "roll.dxf"):
+        assert (tmp_path / "run" / name).stat().st_size == (tmp_path / "case" / name).stat().st_size
+    few = ("--frames", 2, "--width", 320, "--out")
+    for source in (folder, case):
+        assert cli("animate", source, "--sprocket", "roll", *few, tmp_path / f"{source.stem}.gif").code == 0
+    assert (tmp_path / "run.gif").read_bytes() == (tmp_path / "drive.gif").read_bytes()
+    roll = folder / "parts" / "roll"
+    assert cli("animate", roll, *few, tmp_path / "roll.gif").code == 0
+    assert cli("animate", folder, *few, tmp_path / "none.gif").err.count("give --sprocket, one of") == 1
+    assert cli("animate", roll, "--sprocket", "roll", *few, tmp_path / "two.gif").code == 2
+    done = cli("compare", folder, "--set", "load.power_kW=1")
+    assert done.code == 2 and "cannot change the folder of a run" in done.err
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "words"),
+    [
+        ("drive.json", '"schema_version": 1', '"schema_version": 9', "must have schema_version 1, has 9"),
+        ("drive.json", '"case"', '"cases"', "a value in drive.json is missing or of another kind"),
+        ("drive.json", "{", "", "cannot be read"),
+        (
+            "drive.lock.toml",
+            "power_kW = 1.3",
+            "power_kW = 1.4",
+            "load.power_kW of 'driver' was 1.3 and is 1.4",
+        ),
+        ("drive.lock.toml", "[load]", "[lod]", "lod: unknown table"),
+        ("parts/roll/history.csv", "cycles", "cycle", "roll: must be the folder of a result"),
+        ("parts/roll/result.json", None, None, "result.json: No such file"),
+    ],
+)
+def test_run_of_a_drive_that_was_changed_is_refused(cli, run_of_two, tmp_path, file, old, new, words):
+    shutil.copytree(run_of_two[0], tmp_path / "run")
+    path = tmp_path / "run" / file
+    if old is None:
+        path.unlink()
+    else:
+        assert old in path.read_text()
+        path.write_text(path.read_text().replace(old, new, 1))
+    done = cli("compare", tmp_path / "run")
+    assert done.code == 2 and words in done.err, done.err
+    assert "Traceback" not in done.err
+
+
+def test_run_of_a_drive_replaces_itself_only(cli, run_of_two, tmp_path):
+    shutil.copytree(run_of_two[0], tmp_path / "run")
+    _, result = run_of_two
+    result.save(tmp_path / "run", force=True)
+    (tmp_path / "run" / "parts" / "roll" / "mine.txt").write_text("mine")
+    with pytest.raises(wearsim.WearsimError, match="run"):
+        result.save(tmp_path / "run", force=True)
+    assert (tmp_path / "run" / "parts" / "roll" / "mine.txt").read_text() == "mine"
 
 
 def test_torque_is_that_of_the_driver(cli, drive, tmp_path, two_sprockets):

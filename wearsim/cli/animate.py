@@ -81,7 +81,8 @@ def animate(
     from wearsim.result import WearResult
 
     (loaded,) = loaded_sources((source,), settings, False).values()
-    result = loaded if isinstance(loaded, WearResult) else worn(one_sprocket(loaded, source, sprocket))
+    one = one_sprocket(loaded, source, sprocket)
+    result = one if isinstance(one, WearResult) else worn(one)
 
     with working(f"drawing {frames} frames"):
         content = animation(result, kind, frames, seconds, width)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.cases_and_runs import loaded_sources, results_of
+from wearsim.command.cases_and_runs import is_drive, loaded_sources, results_of
 from wearsim.command.colours import show
 from wearsim.command.complete import RunPath
 from wearsim.command.options import (
@@ -22,6 +22,7 @@ from wearsim.command.single_file import check_workbook, workbook_option, write_w
 if TYPE_CHECKING:
     from wearsim.case.model import Case
     from wearsim.drive.drive_case import DriveCase
+    from wearsim.drive.drive_result import DriveLife
     from wearsim.result import WearResult
 
 
@@ -84,11 +85,9 @@ def compare(
     return SOME_FAILED if failed or len(found) < len(set(sources)) else 0
 
 
-def _check_alike(loaded: "Iterable[Case | DriveCase | WearResult]") -> None:
+def _check_alike(loaded: "Iterable[Case | DriveCase | WearResult | DriveLife]") -> None:
     """Raise where whole drives and flanks are to stand in one table."""
-    from wearsim.drive.drive_case import DriveCase
-
-    if len({isinstance(one, DriveCase) for one in loaded}) > 1:
+    if len(set(map(is_drive, loaded))) > 1:
         raise click.UsageError(
             "whole drives are compared by their parts, single sprockets and gears by their flanks: compare "
             "them apart"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.cad import DRAWINGS, STATES, WHEELS, format_by_ending
-from wearsim.command.cases_and_runs import loaded_sources, one_sprocket
+from wearsim.command.cases_and_runs import is_drive, loaded_sources, one_sprocket
 from wearsim.command.complete import RunPath
 from wearsim.command.options import common_options, overrides, sprocket_option, warn, working, worn
 from wearsim.command.single_file import check_place, format_of, write_content
@@ -16,6 +16,7 @@ from wearsim.quantities import either
 if TYPE_CHECKING:
     from wearsim.case.model import Case
     from wearsim.drive.drive_case import DriveCase
+    from wearsim.drive.drive_result import DriveLife
     from wearsim.geometry.wheel_outline import State
     from wearsim.result import WearResult
 
@@ -69,13 +70,11 @@ def export(
     """
     if out is None and template is None:
         raise click.UsageError("give --out FILE, --template FILE or both")
-    from wearsim.drive.drive_case import DriveCase
-
     (loaded,) = loaded_sources((source,), settings, False).values()
-    if out is not None and sprocket is None and isinstance(loaded, DriveCase) and _is_folder(out):
+    if out is not None and sprocket is None and is_drive(loaded) and _is_folder(out):
         if template is not None:
             raise click.UsageError("--template is the gauge of one sprocket: give --sprocket NAME")
-        _export_all(loaded, out, form or _FORMATS[0], state or "new", force)
+        _export_all(loaded, out, form or _FORMATS[0], state, force)
         return
     places = [path for path in (out, template) if path is not None and str(path) != "-"]
     _check_places(places, source, force)
@@ -108,20 +107,27 @@ def _is_folder(out: Path) -> bool:
     return str(out) != "-" and format_by_ending(out) not in WHEELS
 
 
-def _export_all(drive: "DriveCase", out: Path, form: str, state: str, force: bool) -> None:
+def _export_all(
+    source: "Case | DriveCase | WearResult | DriveLife", out: Path, form: str, state: str | None, force: bool
+) -> None:
     """Write the wheels of all sprockets of a drive into a folder, each cog of a cassette for itself."""
     from wearsim.cad.wheel_formats import export as content
+    from wearsim.drive.drive_case import DriveCase
+    from wearsim.drive.drive_result import DriveLife
     from wearsim.drive.life import drive_life
     from wearsim.files import check_folder, file_names, new_folder
 
-    states = STATES[state]
+    run = source.complete() if isinstance(source, DriveLife) else None
+    drive = source.drive if isinstance(source, DriveLife) else source
+    assert isinstance(drive, DriveCase)
+    states = STATES[state or ("both" if run else "new")]
     _check_library(form)
     _check_states(form, states)
     check_folder(out, force)
-    cases, results = drive.titled_cases(), {}
-    if "worn" in states:
+    if run is None and "worn" in states:
         with working(f"wearing {drive.title}") as report_progress:
-            results = drive_life(drive, report_progress).complete().results
+            run = drive_life(drive, report_progress).complete()
+    cases, results = drive.titled_cases(), run.results if run else {}
     with new_folder(out, force) as place:
         for file, (name, case) in zip(file_names(list(cases)), cases.items(), strict=True):
             (place / f"{file}.{form}").write_bytes(content(case, results.get(name), states, form))
@@ -156,17 +162,16 @@ def _check_places(places: list[Path], source: Path, force: bool) -> None:
 
 
 def _wheel(
-    loaded: "Case | DriveCase | WearResult", source: Path, sprocket: str | None
+    loaded: "Case | DriveCase | WearResult | DriveLife", source: Path, sprocket: str | None
 ) -> "tuple[Case, WearResult | None]":
     """Return the case of a wheel, and its run where the folder of one is given."""
     from wearsim.result import WearResult
 
-    if not isinstance(loaded, WearResult):
-        return one_sprocket(loaded, source, sprocket, ", or --out FOLDER alone for all wheels"), None
-    if sprocket is not None:
-        raise click.UsageError(f"--sprocket belongs to a whole drive, but {source} is a run: leave it out")
+    one = one_sprocket(loaded, source, sprocket, ", or --out FOLDER alone for all wheels")
+    if not isinstance(one, WearResult):
+        return one, None
     from dataclasses import replace
 
     from wearsim.report.flank_view import case_of
 
-    return replace(case_of(loaded), name=loaded.case, title=loaded.title), loaded
+    return replace(case_of(one), name=one.case, title=one.title), one

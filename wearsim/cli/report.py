@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.cases_and_runs import loaded_sources, results_of
+from wearsim.command.cases_and_runs import is_drive, loaded_sources, results_of
 from wearsim.command.complete import RunPath
 from wearsim.command.options import SOME_FAILED, common_options, overrides, show_failed_parts, warn
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
     from wearsim.drive.drive_case import DriveCase
+    from wearsim.drive.drive_result import DriveLife
     from wearsim.result import WearResult
 
 
@@ -57,12 +58,11 @@ def report(
 
     A case with [[sprocket]] twice or more is a whole drive: one page, a calculation sheet for A4.
     """
-    from wearsim.drive.drive_case import DriveCase
     from wearsim.extras import check_installed
     from wearsim.files import check_folder
 
     loaded = loaded_sources(sources, settings, False)
-    if any(isinstance(one, DriveCase) for one in loaded.values()):
+    if any(map(is_drive, loaded.values())):
         if len(loaded) > 1:
             raise click.UsageError("a drive has a sheet of its own: run wearsim report for each")
         if single_file or detail != "full":
@@ -89,7 +89,10 @@ def report(
 
 
 def _report_drive(
-    loaded: "Mapping[Path, Case | DriveCase | WearResult]", out: Path, force: bool, head: tuple[str, str, str]
+    loaded: "Mapping[Path, Case | DriveCase | WearResult | DriveLife]",
+    out: Path,
+    force: bool,
+    head: tuple[str, str, str],
 ) -> int:
     """Write the sheet of a drive, and print where it stands."""
     from wearsim.drive.drive_result import DriveLife

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 import click
 
@@ -19,10 +19,8 @@ if TYPE_CHECKING:
 
 def loaded_sources(
     sources: Sequence[Path], settings: tuple[str, ...], as_json: bool
-) -> "dict[Path, Case | DriveCase | WearResult]":
+) -> "dict[Path, Case | DriveCase | WearResult | DriveLife]":
     """Load cases, and the runs in folders, each once."""
-    from wearsim.result import WearResult
-
     for path in sources:
         if not path.is_dir() and place_of_case(path).suffix != ".toml" and str(path) != "-":
             raise OutputError(
@@ -31,20 +29,30 @@ def loaded_sources(
     check_settings(sources, settings)
     paths = [path for path in dict.fromkeys(sources) if not path.is_dir()]
     cases = dict(zip(paths, load_cases(paths, settings, as_json), strict=True))
-    return {path: cases[path] if path in cases else WearResult.load(path) for path in dict.fromkeys(sources)}
+    return {path: cases[path] if path in cases else _run(path) for path in dict.fromkeys(sources)}
+
+
+def _run(folder: Path) -> "WearResult | DriveLife":
+    """Read the run of one sprocket, of a pair of gears or of a whole drive."""
+    from wearsim.drive.drive_result import DriveLife
+    from wearsim.result import WearResult
+
+    kind = DriveLife if (folder / "drive.json").is_file() else WearResult
+    return kind.load(folder)
 
 
 def results_of(
-    loaded: "Mapping[Path, Case | DriveCase | WearResult]", as_json: bool
+    loaded: "Mapping[Path, Case | DriveCase | WearResult | DriveLife]", as_json: bool
 ) -> "dict[Path, WearResult | DriveLife]":
     """Run the cases among cases and runs; one that fails is shown and left out of the rest."""
-    from wearsim.result import WearResult
+    from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
 
     found: dict[Path, WearResult | DriveLife] = {}
     failures: list[WearsimError] = []
     for path, source in loaded.items():
         try:
-            found[path] = source if isinstance(source, WearResult) else worn(source)
+            found[path] = worn(source) if isinstance(source, Case | DriveCase) else source
         except WearsimError as error:
             failures.append(error)
             if as_json:
@@ -61,20 +69,48 @@ def check_settings(sources: Sequence[Path], settings: tuple[str, ...]) -> None:
         raise click.UsageError("--set changes cases, it cannot change the folder of a run")
 
 
-def one_sprocket(case: "Case | DriveCase", path: Path, sprocket: str | None, or_else: str = "") -> "Case":
-    """Return the case of one sprocket, of a whole drive that which is named, under a title that says so.
+def is_drive(source: "Case | DriveCase | WearResult | DriveLife") -> bool:
+    """Tell whether a case or a run is that of a whole drive."""
+    from wearsim.case.model import Case
+    from wearsim.result import WearResult
+
+    return not isinstance(source, Case | WearResult)
+
+
+@overload
+def one_sprocket(
+    source: "Case | DriveCase", path: Path, sprocket: str | None, or_else: str = ""
+) -> "Case": ...
+
+
+@overload
+def one_sprocket(
+    source: "Case | DriveCase | WearResult | DriveLife", path: Path, sprocket: str | None, or_else: str = ""
+) -> "Case | WearResult": ...
+
+
+def one_sprocket(
+    source: "Case | DriveCase | WearResult | DriveLife", path: Path, sprocket: str | None, or_else: str = ""
+) -> "Case | WearResult":
+    """Return case or run of one sprocket, of a whole drive that which is named, under a title that says so.
 
     What may be given in place of a sprocket is told where none is.
     """
     from wearsim.case.model import Case
+    from wearsim.drive.drive_case import DriveCase
+    from wearsim.result import WearResult
 
-    if isinstance(case, Case):
+    if isinstance(source, Case | WearResult):
         if sprocket is not None:
             raise click.UsageError(f"--sprocket belongs to a whole drive, but {path} is none: leave it out")
-        return case
-    cases = case.titled_cases()
-    if sprocket not in cases:
+        return source
+    found: Mapping[str, Case | WearResult] = (
+        source.titled_cases()
+        if isinstance(source, DriveCase)
+        else {result.case: result for result in source.titled()}
+    )
+    if sprocket is None or sprocket not in found:
         got = or_else if sprocket is None else f" (got {sprocket!r})"
-        names = ", ".join(map(repr, cases))
+        names = ", ".join(map(repr, found))
         raise click.UsageError(f"{path} is a whole drive: give --sprocket, one of {names}{got}")
-    return cases[sprocket]
+    return found[sprocket]

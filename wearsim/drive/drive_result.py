@@ -180,8 +180,8 @@ class DriveLife:
         Parameters
         ----------
         folder : path
-            New folder for drive.json, drive.lock.toml, history.csv, flank.csv and ``inputs`` with the
-            files of the drive.
+            New folder for drive.json, drive.lock.toml, history.csv, flank.csv, ``inputs`` with the
+            files of the drive, and ``parts`` with the folder of each sprocket's result.
         force : bool
             Replace a folder that is there.
         parquet : bool
@@ -195,6 +195,29 @@ class DriveLife:
             pyarrow is not installed, which Parquet needs.
         """
         import_module(_FOLDER).write_drive(self, Path(folder), force, parquet)
+
+    @classmethod
+    def load(cls, folder: str | Path) -> DriveLife:
+        """Read a result that was saved.
+
+        Parameters
+        ----------
+        folder : path
+            Folder with drive.json.
+
+        Returns
+        -------
+        DriveLife
+            Equal to what was saved, number by number.
+
+        Raises
+        ------
+        OutputError
+            The folder does not hold a complete result of this version, or its input is now read
+            otherwise, as by other defaults.
+        """
+        found: DriveLife = import_module(_FOLDER).read_drive(Path(folder))
+        return found
 
     @property
     def named_lives(self) -> dict[str, Life | LowerBound]:

@@ -87,8 +87,9 @@ def _lock(case: str, inputs: Mapping[str, Any]) -> str:
 def read_result(folder: Path) -> dict[str, Any]:
     """Return the fields of a result that was written."""
     if (folder / "drive.json").is_file():
-        lock = folder / "drive.lock.toml"
-        raise OutputError(f"{folder}: must be the run of one case, but is that of a whole drive: give {lock}")
+        raise OutputError(
+            f"{folder}: must be the run of one case, but is that of a whole drive: take DriveLife"
+        )
     try:
         return _stored(folder)
     except OutputError:

@@ -1,21 +1,26 @@
-"""The folder of a whole drive: written all of it or nothing."""
+"""The folder of a whole drive: written all of it or nothing, read back with the results of its sprockets."""
 
 import copy
 import json
+import tomllib
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import tomlkit
 
+from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import DriveLife
-from wearsim.files import new_folder
+from wearsim.drive.load_case import load_drive
+from wearsim.errors import OutputError, WearsimError
+from wearsim.files import file_names, new_folder
+from wearsim.input.document import GivenInput, leaves, text_of
 from wearsim.report.drive.sheet import drive_json
-from wearsim.result.folder import write_parquet
+from wearsim.result import WearResult
+from wearsim.result.folder import FILE_KEYS, SCHEMA_VERSION, write_parquet
 
-if TYPE_CHECKING:
-    pass
-
-_INPUTS = "inputs"
+_INPUTS, _PARTS = "inputs", "parts"
+_STORED, _LOCK = "drive.json", "drive.lock.toml"
 _FILES = ("points_file", "dxf_file")
 
 
@@ -23,14 +28,76 @@ def write_drive(found: DriveLife, folder: Path, force: bool, parquet: bool = Fal
     """Write the lives of a drive, its input, and the history and the flanks of all sprockets."""
     with new_folder(folder, force) as place:
         text = json.dumps(drive_json(found), indent=2, ensure_ascii=False, allow_nan=False)
-        (place / "drive.json").write_text(text + "\n", encoding="utf-8")
-        (place / "drive.lock.toml").write_text(_lock(found, place), encoding="utf-8")
+        (place / _STORED).write_text(text + "\n", encoding="utf-8")
+        (place / _LOCK).write_text(_lock(found, place), encoding="utf-8")
         for name in ("history", "flank"):
             table = getattr(found, name)
             table.to_csv(place / f"{name}.csv", index=False)
             if parquet:
                 columns = {column: table[column].to_numpy() for column in table}
                 write_parquet(place / f"{name}.parquet", columns)
+        for sprocket, part in _parts(found.drive, place).items():
+            if sprocket in found.results:
+                found.results[sprocket].save(part)
+
+
+def read_drive(folder: Path) -> DriveLife:
+    """Return the lives of a drive that were written."""
+    try:
+        return _stored(folder)
+    except WearsimError:
+        raise
+    except OSError as error:
+        raise _no_drive(folder, f"{Path(error.filename or folder).name}: {error.strerror or error}") from None
+    except ValueError as error:
+        raise _no_drive(folder, f"{_STORED} or {_LOCK} cannot be read: {error}") from None
+    except (TypeError, AttributeError, LookupError):
+        raise _no_drive(folder, f"a value in {_STORED} is missing or of another kind") from None
+
+
+def _no_drive(folder: Path, why: str) -> OutputError:
+    return OutputError(
+        f"{folder}: must be the folder of a drive ({_STORED}, {_LOCK} and a folder for each sprocket in "
+        f"{_PARTS}): {why}"
+    )
+
+
+def _stored(folder: Path) -> DriveLife:
+    stored = json.loads((folder / _STORED).read_text(encoding="utf-8"))
+    if stored["schema_version"] != SCHEMA_VERSION:
+        raise OutputError(
+            f"{folder}: {_STORED} must have schema_version {SCHEMA_VERSION}, has "
+            f"{stored['schema_version']!r}: read it with the wearsim that wrote it"
+        )
+    text = text_of(folder / _LOCK)
+    tables = tomllib.loads(text)
+    drive = load_drive(GivenInput(str(folder / _LOCK), stored["case"], folder, text, tables, tables))
+    errors = {one["name"]: one["error"] for one in stored["sprockets"] if "error" in one}
+    parts = _parts(drive, folder)
+    results = {name: WearResult.load(part) for name, part in parts.items() if name not in errors}
+    for one in drive.sprockets:
+        if one.name in results:
+            _check_same(folder, one.name, one.case.inputs, results[one.name].inputs)
+    return DriveLife(drive, results, {name: WearsimError(error) for name, error in errors.items()})
+
+
+def _check_same(folder: Path, name: str, now: Mapping[str, Any], then: Mapping[str, Any]) -> None:
+    """Raise where a sprocket is read otherwise than when it was worn, as by other defaults."""
+    files = {".".join(place) for place in FILE_KEYS}
+    # As both stand in a file: lists, no tuples.
+    plain = (json.loads(json.dumps(of)) for of in (then, now))
+    before, after = ({key: at for key, at in leaves(of) if key not in files} for of in plain)
+    for key in dict.fromkeys([*before, *after]):
+        if before.get(key) != after.get(key):
+            change = f"{key} of {name!r} was {before.get(key)!r} and is {after.get(key)!r} by this wearsim"
+            lock = folder / _LOCK
+            raise OutputError(f"{folder}: must be read as it was worn, but {change}: run {lock} again")
+
+
+def _parts(drive: DriveCase, folder: Path) -> dict[str, Path]:
+    """Return the folders of the results of all sprockets by their names."""
+    names = [one.name for one in drive.sprockets]
+    return {name: folder / _PARTS / file for name, file in zip(names, file_names(names), strict=True)}
 
 
 def _lock(found: DriveLife, place: Path) -> str:
