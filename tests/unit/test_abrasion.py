@@ -2,7 +2,7 @@
 
 import pytest
 
-from wearsim.contact.abrasion import abrasion_share
+from wearsim.lubrication.law import abrasion_share
 
 
 @pytest.mark.parametrize(

@@ -5,9 +5,8 @@ from pathlib import Path
 
 import click
 
-from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, load_cases, overrides
+from wearsim.command.options import common_options, load_cases, overrides, show
 
 
 @click.command(short_help="Check a case: keys, geometry, ratings.")

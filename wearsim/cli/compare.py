@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.cases_and_runs import is_drive, loaded_sources, results_of
-from wearsim.command.colours import show
 from wearsim.command.complete import RunPath
 from wearsim.command.options import (
     SOME_FAILED,
     common_options,
     overrides,
     print_json,
+    show,
     show_failed_parts,
     warn,
 )

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.colours import show
 from wearsim.command.complete import CasePath, complete_key
 from wearsim.command.options import (
     NOT_MET,
@@ -19,6 +18,7 @@ from wearsim.command.options import (
     load_cases,
     overrides,
     print_json,
+    show,
     show_error,
     show_failed_parts,
     warn,

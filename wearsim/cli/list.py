@@ -100,7 +100,7 @@ def _rows(table: str) -> list[dict[str, str]]:
 def _case(name: str, path: Path) -> dict[str, str]:
     import tomllib
 
-    from wearsim.input.other_files import command_of
+    from wearsim.input.document import command_of
 
     tables = tomllib.loads(path.read_text(encoding="utf-8"))
     return {"name": name, "command": command_of(tables), "title": tables.get("title", ""), "file": str(path)}

@@ -5,7 +5,6 @@ from pathlib import Path
 import click
 
 from wearsim.command.cases_and_runs import one_sprocket
-from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import (
     common_options,
@@ -13,6 +12,7 @@ from wearsim.command.options import (
     load_cases,
     overrides,
     print_json,
+    show,
     sprocket_option,
     warn,
 )

@@ -13,8 +13,7 @@ import click
 from wearsim._version import __version__
 from wearsim.cli.command_groups import COMMAND_GROUPS, CommandGroups
 from wearsim.cli.completion import use_own_bash
-from wearsim.command.colours import uses_colour
-from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error
+from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error, uses_colour
 from wearsim.errors import WearsimError
 
 _HELP = """How long will this sprocket last?

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 
-from wearsim.command.colours import show
-from wearsim.command.options import error_json, print_json, warn
+from wearsim.command.options import error_json, print_json, show, warn
 from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
 from wearsim.command.options import (
     common_options,
@@ -17,6 +16,7 @@ from wearsim.command.options import (
     exit_code,
     overrides,
     print_json,
+    show,
     show_error,
     warn,
 )

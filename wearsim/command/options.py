@@ -2,6 +2,8 @@
 
 import json
 import math
+import os
+import re
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -11,7 +13,6 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import click
 
-from wearsim.command.colours import coloured
 from wearsim.command.complete import complete_setting
 from wearsim.errors import CaseError, Fault, GeometryError, OutputError, WearsimError
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from wearsim.drive.drive_case import DriveCase
     from wearsim.drive.drive_result import DriveLife
     from wearsim.result import WearResult
+
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -198,3 +200,35 @@ def finite(context: click.Context, parameter: click.Parameter, value: float | No
     if value is None or math.isfinite(value):
         return value
     raise click.BadParameter(f"{value} is not a finite number.")
+
+
+_OUTSIDE = re.compile(r"\bOUTSIDE\b|\bOVERLOADED\b|(?<=^  )Overloaded:", re.MULTILINE)
+_WARNING = re.compile(r"(?<=^  )(?:Warnings(?! +none$)|warning(?=  ))|\bwarning:", re.MULTILINE)
+
+
+def uses_colour() -> bool | None:
+    """Return that no colour is wanted by the environment; None leaves it to whether there is a terminal.
+
+    https://no-color.org: any text but none in ``NO_COLOR``.
+    """
+    unwanted = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    return False if unwanted else None
+
+
+def coloured(text: str) -> str:
+    r"""Return a text whose warnings and what is outside of its limits stand out.
+
+    Examples
+    --------
+    >>> coloured("70.85 <= 32.67 MPa OUTSIDE")
+    '70.85 <= 32.67 MPa \x1b[31m\x1b[1mOUTSIDE\x1b[0m'
+    >>> coloured("  Warnings   none"), coloured("not outside")
+    ('  Warnings   none', 'not outside')
+    """
+    text = _OUTSIDE.sub(lambda found: click.style(found[0], fg="red", bold=True), text)
+    return _WARNING.sub(lambda found: click.style(found[0], fg="yellow", bold=True), text)
+
+
+def show(text: str) -> None:
+    """Print an answer on stdout."""
+    click.echo(coloured(text))

@@ -5,8 +5,7 @@ from typing import TypeVar
 
 from pydantic import ValidationError
 
-from wearsim.input.document import CaseSource, Document, read_document
-from wearsim.input.other_files import check_command
+from wearsim.input.document import CaseSource, Document, check_command, read_document
 from wearsim.input.table import CalculationTables, Table
 
 Tables = TypeVar("Tables", bound=CalculationTables)

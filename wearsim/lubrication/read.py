@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterator, Sequence
 
 from wearsim.catalogue.catalogues import Lubricant, environments, lubricants, wear_conditions
-from wearsim.contact.abrasion import abrasion_share
 from wearsim.input.case_record import CaseRecord
 from wearsim.lubrication.keys import (
     AT,
@@ -16,6 +15,7 @@ from wearsim.lubrication.keys import (
     LubricationPhase,
     LubricationTable,
 )
+from wearsim.lubrication.law import abrasion_share
 from wearsim.lubrication.model import ENDLESS, Dirt, LubricationInput, PhaseInput, RunningWay
 
 

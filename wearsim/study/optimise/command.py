@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, overrides, print_json, warn
+from wearsim.command.options import common_options, overrides, print_json, show, warn
 from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import in_batches, timed
 

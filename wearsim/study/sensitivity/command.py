@@ -4,9 +4,8 @@ from pathlib import Path
 
 import click
 
-from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, overrides, print_json, warn, working
+from wearsim.command.options import common_options, overrides, print_json, show, warn, working
 from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import run
 

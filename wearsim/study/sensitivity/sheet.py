@@ -15,8 +15,9 @@ from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
 from wearsim.report.figures import number_ticks
 from wearsim.report.key_words import key_words
+from wearsim.runner.design import value_at
+from wearsim.runner.scatter import coefficient_key
 from wearsim.study.sensitivity.model import HIGH, LOW, KeyEffect, SensitivityStudy
-from wearsim.study.sensitivity.usual_scatters import only_coefficients, usual_scatters
 
 _ALONE = (
     "only wear coefficients scatter, so load, speed and geometry are not compared with them: say in "
@@ -159,3 +160,30 @@ def tornado(answer: SensitivityAnswer) -> Figure:
     panel.grid(alpha=0.3, axis="x", which="both")
     panel.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     return figure
+
+
+_USUAL = {
+    "load.tension_N": 0.1,
+    "load.torque_N_m": 0.1,
+    "load.power_kW": 0.1,
+    "load.speed_rpm": 0.03,
+    "sprocket.evolute_offset_mm": 0.02,
+    "sprocket.face_width_mm": 0.02,
+    "gear.face_width_mm": 0.02,
+}
+"""Standard deviations of load, speed and geometry, as parts of their values."""
+
+
+def only_coefficients(case: Case, keys: Sequence[str]) -> bool:
+    """Return whether no key but wear coefficients scatters."""
+    return set(keys) <= {coefficient_key(case), *case.drive.wear_coefficients}
+
+
+def usual_scatters(case: Case) -> list[str]:
+    """Return lines of a table [uncertainty] for load, speed and geometry of a case."""
+    found = ((key, share, value_at(case.inputs, key)) for key, share in _USUAL.items())
+    return [
+        f'"{key}" = {{distribution = "normal", standard_deviation = {share * value:.3g}}}'
+        for key, share, value in found
+        if isinstance(value, float)
+    ]

@@ -7,8 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.command.colours import show
-from wearsim.command.options import NOT_MET, answer_text, error_json, load_cases, print_json, warn, working
+from wearsim.command.options import (
+    NOT_MET,
+    answer_text,
+    error_json,
+    load_cases,
+    print_json,
+    show,
+    warn,
+    working,
+)
 from wearsim.errors import CaseError, Fault, WearsimError
 
 if TYPE_CHECKING:

@@ -6,9 +6,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from wearsim.command.colours import show
 from wearsim.command.complete import CasePath
-from wearsim.command.options import NOT_MET, common_options, finite, overrides, print_json, warn, working
+from wearsim.command.options import (
+    NOT_MET,
+    common_options,
+    finite,
+    overrides,
+    print_json,
+    show,
+    warn,
+    working,
+)
 from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import exit_code, run
 
