@@ -40,7 +40,7 @@ def b9_contact():
         slip=0.05 + 0.4 * u,
         sliding_speed=np.full(u.size, np.nan),
         flank_curvature=np.full(u.size, 1.0 / 39.1),
-        roller_radius=6.035,
+        mate_radius=6.035,
         modulus=math.pi * 0.418**2 * 2.1e5,
     ).contact
 

@@ -38,7 +38,7 @@ def flank(nodes):
         slip=0.05 + 0.4 * u,
         sliding_speed=np.full(nodes, np.nan),
         flank_curvature=np.full(nodes, 1.0 / RADIUS),
-        roller_radius=ROLLER_RADIUS,
+        mate_radius=ROLLER_RADIUS,
         modulus=contact_modulus((2.1e5, 2.1e5), (0.3, 0.3)),
     )
     return mechanism.contact, archard(1e-10)

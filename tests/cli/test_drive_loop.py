@@ -213,7 +213,7 @@ def test_cogs_share_the_time_and_the_chain(tmp_path, cassette):
             "run": {"life_tolerance": 0.1},
         }
         alone.append(wearsim.load_case(tables))
-    hours = [case.drive.contact(case).cycles_per_chain / case.cycles_per_hour for case in alone]
+    hours = [case.drive.contact(case).cycles_per_mate / case.cycles_per_hour for case in alone]
     # Slack tensions of the two layouts differ by a little.
     assert chains[0] == pytest.approx(1.0 / (0.25 / hours[0] + 0.75 / hours[1]), rel=1e-3)
     # A cog that runs a quarter of the time lives about four times as long as one that runs all of it.

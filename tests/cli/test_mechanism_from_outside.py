@@ -82,7 +82,7 @@ class PinMechanism:
             columns=np.zeros((1, 1)),
             profile=Profile(-arc, np.zeros(arc.size)),
             arc_length=arc,
-            roller_radius=1.0 / relative,
+            mate_radius=1.0 / relative,
             modulus=MODULUS,
             slip_curvature_exponent=0.0,
             offset_form=False,

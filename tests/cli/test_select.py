@@ -210,7 +210,7 @@ def test_case_is_complete_and_has_the_same_life(cli, tmp_path, options):
     drive = load_drive(out)
     best = found["drives"][0]
     driver = drive.driver.case
-    cycles = driver.drive.contact(driver).cycles_per_chain
+    cycles = driver.drive.contact(driver).cycles_per_mate
     assert cycles / driver.cycles_per_hour == pytest.approx(best["chain_life_hours"], rel=5e-5)
     band = driver.drive.joint.band
     for end, rate in (("low", band.high), ("high", band.low)):

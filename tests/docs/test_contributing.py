@@ -42,6 +42,17 @@ def test_layers_are_those_of_the_linter():
     assert [sorted(layer) for layer in stated] == [sorted(row.split(" | ")) for row in contract["layers"]]
 
 
+def test_the_engine_of_wear_says_no_chain():
+    """A mechanism tells it what its mate is called; the engine wears gears and pins as well."""
+    word = re.compile(
+        r"(?<![a-z])(chain|roller|link|bush|joint|sprocket|tooth|teeth)(?![a-z])", re.IGNORECASE
+    )
+    files = sorted((ROOT / "wearsim" / "wear").glob("*.py"))
+    assert len(files) > 10
+    said = {path.name: word.findall(re.sub(r"(?<=[a-z])s\b", "", path.read_text("utf-8"))) for path in files}
+    assert {name: words for name, words in said.items() if words} == {}
+
+
 def test_folders_of_tests_are_those_there_are():
     stated = re.findall(r"^\| `tests/(\w+)` \|", PAGE, re.MULTILINE)
     assert sorted(stated) == sorted(

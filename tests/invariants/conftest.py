@@ -71,7 +71,7 @@ def prescribed(
         slip=slip * path * (0.2 + 0.3 * u),
         sliding_speed=slip * length * 100.0 * (1.0 + u),
         flank_curvature=(-0.05 + 0.02 * u) / length,
-        roller_radius=length * 6.0,
+        mate_radius=length * 6.0,
         modulus=MODULUS / length**2,
     )
 

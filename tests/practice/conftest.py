@@ -70,7 +70,7 @@ def engine_case(row: Row, **changes: object) -> wearsim.Case:
 def engine_hours(case: wearsim.Case) -> float:
     """Hours of the chain as wearsim computes them."""
     assert isinstance(case.drive, WrapDrive)
-    return case.drive.contact(case).cycles_per_chain / case.cycles_per_hour
+    return case.drive.contact(case).cycles_per_mate / case.cycles_per_hour
 
 
 def row_state(row: Row) -> JointState:

@@ -15,7 +15,7 @@ BICYCLE = changed(ROAD_BICYCLE, {"stop.elongation_percent": 2})
 
 def factors(case: wearsim.Case) -> list[float]:
     """The rate that each owner needs over that of the case."""
-    hours = case.drive.contact(case).cycles_per_chain / case.cycles_per_hour
+    hours = case.drive.contact(case).cycles_per_mate / case.cycles_per_hour
     return [percent / 2.0 * hours / (km / 28.0) for km, percent in OWNERS]
 
 

@@ -30,7 +30,7 @@ def test_b9_cycle_by_cycle(rows, rounded):
         slip=0.05 + 0.4 * u,
         sliding_speed=np.full(rows, np.nan),
         flank_curvature=np.full(rows, 1.0 / 39.1),
-        roller_radius=6.035,
+        mate_radius=6.035,
         modulus=contact_modulus((2.1e5, 2.1e5), (0.3, 0.3)),
     )
     run = run_per_cycle(mechanism.contact, archard(1e-10), (depth_limit(0.5),), 1e8, 1)

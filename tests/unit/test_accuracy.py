@@ -23,7 +23,7 @@ def contact(points: int, ripple: float = 0.0) -> FlankContact:
         slip=1.0 + ripple * np.cos(0.5 * np.pi * arc),
         sliding_speed=np.full(points, np.nan),
         flank_curvature=np.zeros(points),
-        roller_radius=5.0,
+        mate_radius=5.0,
         modulus=1e5,
     ).contact
 

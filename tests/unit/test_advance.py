@@ -39,7 +39,7 @@ def contact(
         slip=path * (1.0 + ripple * np.cos(0.5 * np.pi * arc)),
         sliding_speed=np.full(nodes, np.nan),
         flank_curvature=np.full(nodes, curvature),
-        roller_radius=ROLLER,
+        mate_radius=ROLLER,
         modulus=MODULUS,
     ).contact
 

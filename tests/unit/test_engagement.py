@@ -21,7 +21,7 @@ def prescribed(curvature: np.ndarray, kind: ContactKind = ContactKind.TRAVELLING
         slip=0.1 * (1.0 + ARC),
         sliding_speed=np.full(ARC.size, np.nan),
         flank_curvature=curvature,
-        roller_radius=6.0,
+        mate_radius=6.0,
         modulus=1e5,
     )
 

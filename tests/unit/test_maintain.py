@@ -10,7 +10,7 @@ import pytest
 import wearsim
 from tests.drives import FAST_WRAP, changed
 from wearsim.case.keys import MaintenanceTable
-from wearsim.contact.resting_engagement import ChainWear
+from wearsim.contact.resting_engagement import MateWear
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import CaseError
 from wearsim.report.answer import answer
@@ -221,7 +221,7 @@ def test_a_run_goes_on_from_where_another_ended():
     whole = run_resting(contact, law, stop_limits, 1e12, 1)
     half = run_resting(contact, law, stop_limits, 0.5 * whole.cycles[-1], 1)
     assert half.met is None
-    start = StartState(half.all_depth[-1], ChainWear(float(half.elongation[-1])), int(half.chains[-1]))
+    start = StartState(half.all_depth[-1], MateWear(float(half.elongation[-1])), int(half.mates[-1]))
     rest = run_resting(contact, law, stop_limits, 1e12, 1, start=start)
     assert np.array_equal(rest.all_depth[0], half.all_depth[-1])
     assert rest.x[0] == pytest.approx(half.x[-1], abs=1e-12)

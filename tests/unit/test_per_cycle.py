@@ -33,7 +33,7 @@ def flat(path: float = 1.0, load: float = LOAD) -> FlankContact:
         slip=np.full(NODES, path),
         sliding_speed=np.full(NODES, np.nan),
         flank_curvature=np.zeros(NODES),
-        roller_radius=ROLLER,
+        mate_radius=ROLLER,
         modulus=MODULUS,
     ).contact
 
@@ -135,7 +135,7 @@ def test_offset_form_is_the_general_loop(law: WearLaw, kind: ContactKind) -> Non
         slip=0.2 + 0.1 * np.cos(arc),
         sliding_speed=30.0 + arc,
         flank_curvature=0.01 * np.sin(arc),
-        roller_radius=ROLLER,
+        mate_radius=ROLLER,
         modulus=MODULUS,
     ).contact
     limit = (depth_limit(0.004),)

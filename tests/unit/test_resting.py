@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from wearsim.contact.engagement import ContactKind
-from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, RestingContact
+from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit, depth_limit
 from wearsim.errors import ContactError, ConvergenceError, JumpError
 from wearsim.geometry.profile_points import Profile
@@ -31,7 +31,7 @@ class Seat(RestingContact):
     elongation_limit = 0.02
     slack_tension = 0.0
     modulus = MODULUS
-    roller_radius = 5.0
+    mate_radius = 5.0
 
     def __init__(self, bodies=1, points=151, growth=0.0, **event):
         angle = np.linspace(0.2, -0.2, points)
@@ -188,9 +188,9 @@ def test_chain_grows_and_is_replaced():
     """2 % in 8 cycles: steps end on every replacement, and events meet the growth so far."""
     contact = Seat(growth=0.0025)
     run = run_resting(contact, LAW, (depth_limit(1.0),), 20.0, 0)
-    assert run.chains[-1] == 3.0
+    assert run.mates[-1] == 3.0
     np.testing.assert_allclose(
-        run.elongation, 0.0025 * (run.cycles - 8.0 * (run.chains - 1.0)), rtol=0.0, atol=1e-12
+        run.elongation, 0.0025 * (run.cycles - 8.0 * (run.mates - 1.0)), rtol=0.0, atol=1e-12
     )
     for end in (8.0, 16.0):
         assert np.isclose(run.cycles, end).any()
@@ -204,7 +204,7 @@ def test_snapshots_are_thinned_and_keep_both_ends():
     assert run.updates == 2000
     assert 180 <= run.cycles.size <= 362
     assert (run.cycles[0], run.cycles[-1]) == (0.0, 2000.0)
-    assert run.elongation.size == run.roller_wear.size == run.chains.size == run.cycles.size
+    assert run.elongation.size == run.mate_depth.size == run.mates.size == run.cycles.size
     assert (run.sliding_speed[1:] == 50.0).all()
 
 
@@ -214,7 +214,7 @@ def test_the_end_of_the_first_chain_is_kept():
     run = run_resting(contact, archard(1e3 * RATE), (depth_limit(1.0),), 3000.0, 0, 1.0)
     end = int(np.abs(run.cycles - 301.0).argmin())
     assert run.cycles[end] == pytest.approx(301.0, rel=1e-9)
-    assert (run.chains[end], run.chains[-1]) == (1.0, 10.0)
+    assert (run.mates[end], run.mates[-1]) == (1.0, 10.0)
     assert run.elongation[end] == pytest.approx(0.02, rel=1e-9)
 
 
@@ -223,7 +223,7 @@ def test_a_run_begun_worn_goes_on():
     law, limit = archard(1e4 * RATE), (depth_limit(1.0),)
     whole = run_resting(Seat(growth=1e-4), law, limit, 100.0, 0, 1.0)
     first = run_resting(Seat(growth=1e-4), law, limit, 50.0, 0, 1.0)
-    start = StartState(first.all_depth[-1], ChainWear(float(first.elongation[-1])), 1)
+    start = StartState(first.all_depth[-1], MateWear(float(first.elongation[-1])), 1)
     second = run_resting(Seat(growth=1e-4), law, limit, 50.0, 0, 1.0, start=start)
     np.testing.assert_allclose(second.depth[-1], whole.depth[-1], rtol=0.0, atol=1e-4 * whole.depth.max())
     assert second.elongation[-1] == pytest.approx(whole.elongation[-1], rel=1e-12)
@@ -252,7 +252,7 @@ def test_contacts_of_events_alone_have_no_stages():
 
 @pytest.mark.parametrize("quantity", ["load", "slip", "count"])
 def test_nothing_to_wear_is_an_error(quantity):
-    with pytest.raises(ContactError, match="contact at cycle 0: loaded rollers must slide"):
+    with pytest.raises(ContactError, match="contact at cycle 0: a loaded mate must slide"):
         run_resting(Seat(**{quantity: 0.0}), LAW, LIMIT, 1e9, 0)
 
 
@@ -265,11 +265,11 @@ def test_not_a_number_is_an_error(quantity):
 def test_a_roller_out_of_reach_is_an_error():
     """Pressed sideways, the roller meets no point."""
     contact = Seat()
-    table = contact.events(None, None, NEW_CHAIN, contact.memory())
+    table = contact.events(None, None, NEW_MATE, contact.memory())
     table[kernels.EVENT_NORMAL_X], table[kernels.EVENT_NORMAL_Y] = 1.0, 0.0
     table[kernels.EVENT_CENTRE_X] = -50.0
     contact.events = lambda *arguments: table
-    with pytest.raises(ConvergenceError, match="the pressure of every roller must be found"):
+    with pytest.raises(ConvergenceError, match="the pressure of every mate must be found"):
         run_resting(contact, LAW, LIMIT, 1e9, 0)
 
 
@@ -295,7 +295,7 @@ def test_a_jump_ends_the_life():
 
 
 def test_a_jump_at_once_is_an_error():
-    start = StartState(np.zeros((1, 151)), ChainWear(0.015), 1)
+    start = StartState(np.zeros((1, 151)), MateWear(0.015), 1)
     with pytest.raises(JumpError):
         run_resting(Jumping(growth=1e-4), LAW, LIMIT, 1e9, 0, start=start)
 
@@ -357,19 +357,19 @@ def test_a_roller_in_a_pocket_wears_both_sides():
 def test_area_worn_off_a_roller():
     """A roller of 5 mm that loses pi (25 - 16) mm2 of its section has 4 mm left."""
     seat = Seat(growth=1e-4)
-    seat.roller_area_ratio = 2.0
-    after = seat.chain_after(ChainWear(0.01, 0.0), 50.0, 0.5 * np.pi * 9.0)
+    seat.mate_area_ratio = 2.0
+    after = seat.mate_after(MateWear(0.01, 0.0), 50.0, 0.5 * np.pi * 9.0)
     assert after.elongation == pytest.approx(0.015, rel=1e-12)
-    assert after.roller == pytest.approx(1.0, rel=1e-12)
-    seat.thinnest_roller = 4.01
+    assert after.depth == pytest.approx(1.0, rel=1e-12)
+    seat.thinnest_mate = 4.01
     with pytest.raises(ContactError, match="worn through at an elongation of 1 %"):
-        seat.chain_after(ChainWear(0.01, 0.0), 50.0, 0.5 * np.pi * 9.0)
+        seat.mate_after(MateWear(0.01, 0.0), 50.0, 0.5 * np.pi * 9.0)
 
 
 class Rubbed(Seat):
     """Remembers the chain of every step."""
 
-    roller_area_ratio = 3.0
+    mate_area_ratio = 3.0
 
     def events(self, x, y, wear, memory, at=0.5):
         self.worn = wear
@@ -380,22 +380,22 @@ class Rubbed(Seat):
 def test_rollers_lose_their_share_of_what_a_gap_loses(bodies):
     contact = Rubbed(bodies)
     run = run_resting(contact, LAW, LIMIT, 1e9, 1)
-    lost = np.pi * (5.0**2 - (5.0 - run.roller_wear[-1]) ** 2)
+    lost = np.pi * (5.0**2 - (5.0 - run.mate_depth[-1]) ** 2)
     # The last step was cut back to the limit; what it left is linear in its part.
     assert lost == pytest.approx(3.0 * run.area / bodies, rel=1e-4)
-    assert (np.diff(run.roller_wear) > 0.0).all()
+    assert (np.diff(run.mate_depth) > 0.0).all()
 
 
 def test_a_soft_core_of_the_tooth_does_not_soften_the_roller():
     """Below a layer of no depth the tooth wears five times as fast, its roller as before."""
     law = replace(LAW, case_depth=1e-12, core_factor=5.0)
     run = run_resting(Rubbed(), law, LIMIT, 1e9, 2)
-    lost = np.pi * (5.0**2 - (5.0 - run.roller_wear[-1]) ** 2)
+    lost = np.pi * (5.0**2 - (5.0 - run.mate_depth[-1]) ** 2)
     assert lost == pytest.approx(3.0 * run.area / 5.0, rel=1e-3)
 
 
 def test_a_new_chain_brings_new_rollers():
     run = run_resting(Rubbed(growth=1e-7), LAW, LIMIT, 1e9, 0)
-    assert run.chains[-1] > 2.0
-    starts = np.flatnonzero(np.diff(run.chains) > 0.0) + 1
-    assert (run.roller_wear[starts] < run.roller_wear[starts - 1]).all()
+    assert run.mates[-1] > 2.0
+    starts = np.flatnonzero(np.diff(run.mates) > 0.0) + 1
+    assert (run.mate_depth[starts] < run.mate_depth[starts - 1]).all()

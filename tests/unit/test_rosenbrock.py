@@ -145,7 +145,7 @@ def test_states_between_the_steps_are_as_good_as_the_life() -> None:
         slip=1.0 - 0.5 * np.cos(0.5 * np.pi * arc),
         sliding_speed=np.full(arc.size, np.nan),
         flank_curvature=0.0 * arc,
-        roller_radius=5.0,
+        mate_radius=5.0,
         modulus=1e5,
     ).contact
     given = contact, archard(1e-9), (depth_limit(0.05),), 1e15

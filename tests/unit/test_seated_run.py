@@ -9,7 +9,7 @@ from scipy.optimize import approx_fprime
 
 import wearsim
 from wearsim.contact.hertz import half_width, peak_pressure
-from wearsim.contact.resting_engagement import NEW_CHAIN
+from wearsim.contact.resting_engagement import NEW_MATE
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.kernels import wrap_seats as seats
@@ -106,7 +106,7 @@ def test_pull_of_the_rollers_is_the_slope_of_the_energy():
     of = contact("mechanism.friction_roller_tooth=0.2", "mechanism.friction_roller_bush=0.4")
     bodies = WornBodies(of, LAW, None)
     places = of.seating(np.array([1e-9, 1.0, 0.0, np.inf, 1.0]), bodies.unworn)
-    places.seat(bodies.area, bodies.x, bodies.y, NEW_CHAIN)
+    places.seat(bodies.area, bodies.x, bodies.y, NEW_MATE)
     mechanism, points = of.mechanism, bodies.unworn.shape[1]
     rollers, work, cells = 3, np.zeros((seats.SEAT_WORK_ROWS, of.most_rollers)), np.zeros((5, points))
     work[seats._HIGH, :rollers] = points
@@ -129,7 +129,7 @@ def test_pull_of_the_rollers_is_the_slope_of_the_energy():
             recess,
             places.pressures,
             0,
-            of.roller_radius,
+            of.mate_radius,
             of.face_width,
             places.seats,
             work,
@@ -203,7 +203,7 @@ def test_rollers_rest_as_on_rigid_teeth_but_for_what_these_yield():
     of = contact("mechanism.friction_roller_tooth=0.1", "mechanism.friction_roller_bush=0.2")
     bodies = WornBodies(of, LAW, None)
     places = of.seating(np.array([1e-9, 1.0, 0.0, np.inf, 1.0]), bodies.unworn)
-    places.seat(bodies.area, bodies.x, bodies.y, NEW_CHAIN)
+    places.seat(bodies.area, bodies.x, bodies.y, NEW_MATE)
     phase = float(places.phases[0, 1])
     loads = of.mechanism.loads(phase)
     rollers = loads.force.size
@@ -274,7 +274,7 @@ def test_horizon_limit_and_watch():
 
 
 def test_nothing_to_wear_is_an_error():
-    with pytest.raises(ContactError, match="contact at cycle 0: loaded rollers must slide"):
+    with pytest.raises(ContactError, match="contact at cycle 0: a loaded roller must slide"):
         run_seated(contact(), archard(0.0), LIMIT, 1e12, 0)
 
 
@@ -328,7 +328,7 @@ def test_a_life_that_a_new_chain_has_spared_is_uncertain():
     run = replace(
         trajectory,
         cycles=np.array([0.0, 6.0, 7.0, 10.0]),
-        chains=np.array([1.0, 1.0, 2.0, 2.0]),
+        mates=np.array([1.0, 1.0, 2.0, 2.0]),
         all_depth=worn,
     )
     assert spared(run, 0.05, 0.05) == pytest.approx(1.05 / 0.6 - 1.0, rel=1e-12)

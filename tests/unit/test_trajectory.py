@@ -5,6 +5,7 @@ kinks is not; Hertz needs 1/rho_H > 0.
 """
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -27,7 +28,7 @@ def contact(curvature: float | np.ndarray = 0.0, load: float | np.ndarray = 100.
         slip=np.full(NODES, 0.5),
         sliding_speed=np.full(NODES, np.nan),
         flank_curvature=full[1],
-        roller_radius=6.0,
+        mate_radius=6.0,
         modulus=1e5,
     ).contact
 
@@ -102,3 +103,6 @@ def test_pit_that_conforms_is_found() -> None:
 def test_vanished_contact_is_an_error() -> None:
     with pytest.raises(ContactError, match=r"cycle 3, deepest 0 mm from the root: the roller must touch"):
         touch(contact(load=0.0), np.zeros(NODES), 3.0)
+    gears = replace(contact(load=0.0), mate="mating flank")
+    with pytest.raises(ContactError, match="the mating flank must touch the loaded stretch"):
+        touch(gears, np.zeros(NODES), 3.0)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import wearsim
-from wearsim.contact.resting_engagement import ChainWear
+from wearsim.contact.resting_engagement import MateWear
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import JumpError
 from wearsim.geometry.roller_path import roller_path
@@ -51,7 +51,7 @@ def test_rollers_between_the_strands(degrees, phase, rollers):
 def test_rows_are_those_of_single_solves(elongation):
     """Phases 1/8, 3/8 ... in both kinds of link: load, place of the centre, place touched."""
     of = contact()
-    table = of.events(*unworn(of), ChainWear(elongation), of.memory())
+    table = of.events(*unworn(of), MateWear(elongation), of.memory())
     table = table.reshape(kernels.EVENT_ROWS, 2, 4, of.most_rollers)
     arc = of.arc_length
     for first in (0, 1):
@@ -72,13 +72,13 @@ def test_rows_are_those_of_single_solves(elongation):
 def test_mate_touches_the_outline():
     """The outline comes within a hundredth of a cell's sagitta of a roller around the centre."""
     of = contact("sprocket.nodes=601")
-    table = of.events(*unworn(of), ChainWear(0.01), of.memory())
+    table = of.events(*unworn(of), MateWear(0.01), of.memory())
     table = table[:, table[kernels.EVENT_LOAD] > 0.0]
     for column in table.T:
         distance = np.hypot(
             of.profile.x - column[kernels.EVENT_CENTRE_X], of.profile.y - column[kernels.EVENT_CENTRE_Y]
         )
-        assert distance.min() == pytest.approx(of.roller_radius, abs=2e-4)
+        assert distance.min() == pytest.approx(of.mate_radius, abs=2e-4)
         assert abs(int(distance.argmin()) - column[kernels.EVENT_TOUCHED]) < 60
     normal = np.hypot(table[kernels.EVENT_NORMAL_X], table[kernels.EVENT_NORMAL_Y])
     np.testing.assert_allclose(normal, 1.0, rtol=1e-9)
@@ -88,10 +88,10 @@ def test_memory_changes_nothing_but_the_effort():
     of = contact()
     memory = of.memory()
     assert (memory < 0.0).all()
-    first = of.events(*unworn(of), ChainWear(0.01), memory)
+    first = of.events(*unworn(of), MateWear(0.01), memory)
     assert (memory[first[kernels.EVENT_LOAD].reshape(memory.shape) > 0.0] >= 0.0).all()
-    again = of.events(*unworn(of), ChainWear(0.01), memory)
-    fresh = of.events(*unworn(of), ChainWear(0.01), of.memory())
+    again = of.events(*unworn(of), MateWear(0.01), memory)
+    fresh = of.events(*unworn(of), MateWear(0.01), of.memory())
     np.testing.assert_array_equal(fresh, first)
     np.testing.assert_allclose(again, first, rtol=1e-5, atol=1e-5)
 
@@ -100,7 +100,7 @@ def test_way_between_phases_and_over_the_pitch():
     """Every loaded event holds half the way from the phase before and half to the next one."""
     of = contact("joint.pitch='uniform'")
     of = replace(of, sliding=replace(of.sliding, fraction=0.0, path_fraction=1.0))
-    table = of.events(*unworn(of), ChainWear(0.02), of.memory()).reshape(
+    table = of.events(*unworn(of), MateWear(0.02), of.memory()).reshape(
         kernels.EVENT_ROWS, 4, of.most_rollers
     )
     centre = table[kernels.EVENT_CENTRE_X] + 1j * table[kernels.EVENT_CENTRE_Y]
@@ -136,7 +136,7 @@ def test_coarsened_keeps_ends_and_loads(nodes):
         assert (values[0], values[-1]) == (fewer[0], fewer[-1])
     assert coarse.phases == of.phases // 2
     same = replace(coarse, phases=of.phases)
-    load, fewer = (c.events(*unworn(c), ChainWear(0.01), c.memory())[kernels.EVENT_LOAD] for c in (of, same))
+    load, fewer = (c.events(*unworn(c), MateWear(0.01), c.memory())[kernels.EVENT_LOAD] for c in (of, same))
     np.testing.assert_allclose(fewer, load, rtol=0.0, atol=0.02 * load.max())
 
 
@@ -154,7 +154,7 @@ def test_a_chain_that_jumps_is_an_error():
     pull = replace(block.mechanism.pull, slack=1e-6)
     loose = replace(of, blocks=(replace(block, mechanism=replace(block.mechanism, pull=pull)),))
     with pytest.raises(JumpError, match=r"wrap at an elongation of 6 %: .*jumps"):
-        loose.events(*unworn(loose), ChainWear(0.06), loose.memory())
+        loose.events(*unworn(loose), MateWear(0.06), loose.memory())
 
 
 def test_two_halves_of_the_duty_are_the_whole():
@@ -176,19 +176,19 @@ def test_worn_rollers_meet_what_smaller_rollers_do():
     """Rollers worn by 0.05 mm press as those of a chain made 0.1 mm thinner on the same outline."""
     of = contact("mechanism.friction_roller_tooth=0.2", "chain.bush_diameter_mm=6")
     mechanism = of.mechanism
-    radius = of.roller_radius - 0.05
+    radius = of.mate_radius - 0.05
     chain = replace(mechanism.chain, roller_radius=radius)
     path = roller_path(of.profile, radius, (of.profile.x.size + 1) // 2)
     block = replace(of.blocks[0], mechanism=replace(mechanism, chain=chain, path=path))
     smaller = replace(of, blocks=(block,))
-    worn = of.events(*unworn(of), ChainWear(0.01, 0.05), of.memory())
-    made = smaller.events(*unworn(of), ChainWear(0.01), of.memory())
+    worn = of.events(*unworn(of), MateWear(0.01, 0.05), of.memory())
+    made = smaller.events(*unworn(of), MateWear(0.01), of.memory())
     load = kernels.EVENT_LOAD
     np.testing.assert_allclose(worn[load], made[load], rtol=0.0, atol=2e-3 * made[load].max())
     loaded = made[load] > 0.01 * made[load].max()
     for row, near in ((kernels.EVENT_CENTRE_X, 2e-3), (kernels.EVENT_CENTRE_Y, 2e-3)):
         np.testing.assert_allclose(worn[row][loaded], made[row][loaded], rtol=0.0, atol=near)
-    untouched = of.events(*unworn(of), ChainWear(0.01), of.memory())
+    untouched = of.events(*unworn(of), MateWear(0.01), of.memory())
     assert (np.abs(worn - untouched)[kernels.EVENT_CENTRE_Y][loaded] > 0.03).any()
 
 
@@ -202,5 +202,5 @@ def test_rollers_lose_area_to_both_sprockets():
         "wear": {"specific_wear_rate_mm2_per_N": 1e-9, "roller_wear_ratio": 0.5},
     }
     case = wearsim.load_case(tables)
-    ratio = case.drive.contact(case).roller_area_ratio
+    ratio = case.drive.contact(case).mate_area_ratio
     assert ratio == pytest.approx(0.5 * 13 / 60 * (1.0 + 13 / 20), rel=1e-12)

@@ -12,7 +12,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import wearsim
-from wearsim.contact.resting_engagement import ChainWear
+from wearsim.contact.resting_engagement import MateWear
 from wearsim.drive.load_case import load_case
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SPEED
 
@@ -209,7 +209,7 @@ class TestWrap:
     def table(contact):
         profile = contact.profile
         outlines = (np.tile(points, (contact.bodies, 1)) for points in (profile.x, profile.y))
-        return contact.events(*outlines, ChainWear(0.01), contact.memory())
+        return contact.events(*outlines, MateWear(0.01), contact.memory())
 
     def test_contacts_are_those_of_the_constant_loads(self):
         """Count times share times factor, all else as it is."""

@@ -84,7 +84,7 @@ def test_teeth_read_as_predicted_keep_their_rate(slow: wearsim.Case, life: float
 
 
 def chain_hours(case: wearsim.Case) -> float:
-    return float(wrap_of(case).contact(case).cycles_per_chain / case.cycles_per_hour)
+    return float(wrap_of(case).contact(case).cycles_per_mate / case.cycles_per_hour)
 
 
 def tooth_rates(case: wearsim.Case) -> list[float]:

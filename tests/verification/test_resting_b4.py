@@ -9,7 +9,7 @@ of linear wear is k q s for any pressure where its directions are parallel.
 import numpy as np
 import pytest
 
-from wearsim.contact.resting_engagement import NEW_CHAIN, RestingContact
+from wearsim.contact.resting_engagement import NEW_MATE, RestingContact
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.geometry.profile_points import Profile, area_between
 from wearsim.kernels import event_rows as kernels
@@ -47,7 +47,7 @@ class Resting(RestingContact):
         return self._bodies
 
     @property
-    def roller_radius(self):
+    def mate_radius(self):
         return self._radius
 
     def coarsened(self):
@@ -213,13 +213,13 @@ def test_highest_load_is_that_of_the_outline_as_it_is():
     """Hertz on the flat whatever the coefficient; as in the scar at its end afterwards."""
     contact = Resting((0.0, q, 1.0, 3.0, 0), half=0.15)
     hertz = np.sqrt(4.0 * q * R / (np.pi * MODULUS))
-    start = StartState(np.zeros((1, contact.profile.x.size)), NEW_CHAIN, 1)
+    start = StartState(np.zeros((1, contact.profile.x.size)), NEW_MATE, 1)
     pressure, speed = highest_load(contact, archard(1e-3), start)
     assert pressure == pytest.approx(2.0 * q / (np.pi * hertz), rel=1e-3)
     assert speed == 10.0
     run = slid(162.0)
     worn, _ = highest_load(
-        Resting((0.0, q, 1.0, 3.0, 0)), archard(k), StartState(run.all_depth[-1], NEW_CHAIN, 1)
+        Resting((0.0, q, 1.0, 3.0, 0)), archard(k), StartState(run.all_depth[-1], NEW_MATE, 1)
     )
     assert q / (2.4 * half_width(run)) < worn < 0.5 * pressure
 

@@ -191,7 +191,7 @@ def flat_contact(kernel: Callable[..., None]) -> FlankContact:
         columns=np.zeros((1, 1)),
         profile=FLAT,
         arc_length=FLAT.arc_length,
-        roller_radius=5.0,
+        mate_radius=5.0,
         modulus=1e5,
         slip_curvature_exponent=0.0,
         offset_form=False,

@@ -15,7 +15,7 @@ import pytest
 from numpy.typing import NDArray
 
 import wearsim
-from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear
+from wearsim.contact.resting_engagement import NEW_MATE, MateWear
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.geometry.profile_points import area_between
 from wearsim.kernels import event_rows as kernels
@@ -66,7 +66,7 @@ def wear(
 def events(of: WrapContact, elongation: float = 0.0) -> Array:
     """Return rows of events as (row, kind of link, phase, roller) of unworn gaps."""
     outlines = (np.tile(values, (of.bodies, 1)) for values in (of.profile.x, of.profile.y))
-    table = of.events(*outlines, ChainWear(elongation), of.memory())
+    table = of.events(*outlines, MateWear(elongation), of.memory())
     return table.reshape(kernels.EVENT_ROWS, -1, of.phases, of.most_rollers)
 
 
@@ -349,7 +349,7 @@ def test_power_law_wears_less_where_pressure_is_low() -> None:
     square = run_resting(of, law, (depth_limit(0.02),), ENDLESS, 0)
     line = wear(of, depth=0.02)
     first, last = (
-        highest_load(of, law, StartState(depth, NEW_CHAIN, 1))[0] for depth in line.all_depth[[0, -1]]
+        highest_load(of, law, StartState(depth, NEW_MATE, 1))[0] for depth in line.all_depth[[0, -1]]
     )
     assert last < 250.0 < first
     early = 1e-4 * line.cycles[-1]
@@ -415,11 +415,11 @@ def test_chains_are_replaced_at_their_limit() -> None:
     """The elongation runs up to 3 % and starts anew, the depth goes on."""
     _, run = replaced()
     assert run.met is not None
-    assert run.chains[-1] == math.floor(run.cycles[-1] / 6e6) + 1.0 >= 4.0
-    phase = run.cycles - 6e6 * (run.chains - 1.0)
+    assert run.mates[-1] == math.floor(run.cycles[-1] / 6e6) + 1.0 >= 4.0
+    phase = run.cycles - 6e6 * (run.mates - 1.0)
     np.testing.assert_allclose(run.elongation, 0.03 * phase / 6e6, rtol=0.0, atol=1e-9)
     assert (phase > -1e-3).all() and (phase < 6e6 * (1.0 + 1e-9)).all()
-    assert (np.diff(run.chains) >= 0.0).all() and (np.diff(run.depth.max(axis=1)) >= 0.0).all()
+    assert (np.diff(run.mates) >= 0.0).all() and (np.diff(run.depth.max(axis=1)) >= 0.0).all()
 
 
 def test_a_new_chain_on_a_worn_sprocket_is_the_same_run_gone_on() -> None:
@@ -427,11 +427,11 @@ def test_a_new_chain_on_a_worn_sprocket_is_the_same_run_gone_on() -> None:
     of, run = replaced()
     first = wear(of, depth=DEPTH, horizon=6e6)
     assert first.met is None and first.elongation[-1] == pytest.approx(0.03, rel=1e-9)
-    start = StartState(depth=first.all_depth[-1], wear=NEW_CHAIN, chain=2)
+    start = StartState(depth=first.all_depth[-1], wear=NEW_MATE, mate=2)
     law, limit = archard(COEFFICIENT), (depth_limit(DEPTH),)
     rest = run_resting(of, law, limit, ENDLESS, 0, start=start)
     assert 6e6 + rest.cycles[-1] == pytest.approx(run.cycles[-1], rel=2e-3)
-    assert rest.chains[-1] == run.chains[-1]
+    assert rest.mates[-1] == run.mates[-1]
 
 
 def test_hours_of_replacement_alone_decide() -> None:
@@ -444,7 +444,7 @@ def test_hours_of_replacement_alone_decide() -> None:
     other = wear(half)
     assert other.elongation.max() == pytest.approx(0.015, rel=1e-6)
     assert other.cycles[-1] == pytest.approx(run.cycles[-1], rel=0.05)
-    assert other.chains[-1] == run.chains[-1]
+    assert other.mates[-1] == run.mates[-1]
 
 
 def zone(of: WrapContact, run: RestingTrajectory, area: float) -> dict[str, float]:

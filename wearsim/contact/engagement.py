@@ -47,7 +47,7 @@ class FlankContact:
     columns: Vector  # rows of values per point handed to it, shape (rows, points)
     profile: Profile  # the unworn flank
     arc_length: Vector  # arc length of the unworn points [mm]
-    roller_radius: float  # radius of the mate [mm]
+    mate_radius: float  # radius of the mate [mm]
     modulus: float  # contact modulus E* [MPa]
     # d(ln slip)/d(ln relative curvature): 1 where slip follows from the worn geometry, else 0
     slip_curvature_exponent: float
@@ -57,6 +57,7 @@ class FlankContact:
     # relative curvature [1/mm] that the kernel takes where that of the worn flank is less: a mate that
     # bridges a hollow; 0 where it takes that of the flank everywhere
     least_curvature: float = 0.0
+    mate: str = "mate"  # what touches the flank, in words
 
     @property
     def end_spacing(self) -> float:

@@ -23,14 +23,14 @@ from wearsim.kernels.flank_geometry import flank_frame
 Rows = NDArray[np.float64]
 
 
-class ChainWear(NamedTuple):
-    """What a chain in use has lost."""
+class MateWear(NamedTuple):
+    """What a mate in use has lost, such as a chain."""
 
-    elongation: float = 0.0  # relative elongation by wear of its joints
-    roller: float = 0.0  # depth worn off its rollers all round [mm]
+    elongation: float = 0.0  # relative elongation, of a chain by wear of its joints
+    depth: float = 0.0  # worn off it where it rests, of a chain off its rollers all round [mm]
 
 
-NEW_CHAIN = ChainWear()
+NEW_MATE = MateWear()
 
 
 class PressedPlaces(ABC):
@@ -70,7 +70,7 @@ class PressedPlaces(ABC):
         """Go back to a copy."""
 
     @abstractmethod
-    def seat(self, works: Rows, x: Rows, y: Rows, wear: ChainWear) -> None:
+    def seat(self, works: Rows, x: Rows, y: Rows, wear: MateWear) -> None:
         """Place the mates on worn bodies without any knowledge of where they were.
 
         Parameters
@@ -80,7 +80,7 @@ class PressedPlaces(ABC):
             [mm], shape (bodies, points).
         x, y : numpy.ndarray
             The worn outlines [mm], of the same shape.
-        wear : ChainWear
+        wear : MateWear
             What the chain has lost.
 
         Raises
@@ -93,7 +93,7 @@ class PressedPlaces(ABC):
 
     @abstractmethod
     def stage(
-        self, base: Rows, cycles: float, works: Rows, wear: ChainWear, swept: tuple[float, float]
+        self, base: Rows, cycles: float, works: Rows, wear: MateWear, swept: tuple[float, float]
     ) -> bool:
         """Replace a guess by the base and the work of so many cycles at the pressures in the end.
 
@@ -105,7 +105,7 @@ class PressedPlaces(ABC):
             How many.
         works : numpy.ndarray
             A guess of the result, and the result.
-        wear : ChainWear
+        wear : MateWear
             What the chain has lost in the end.
         swept : tuple of float
             Parts of the drift over which the wear of this stage spreads, behind and ahead of its end.
@@ -117,7 +117,7 @@ class PressedPlaces(ABC):
         """
 
     @abstractmethod
-    def jumps(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
+    def jumps(self, x: Rows, y: Rows, wear: MateWear) -> bool:
         """Tell whether the chain jumps on worn bodies."""
 
     @abstractmethod
@@ -129,6 +129,12 @@ class RestingContact(ABC):
     """Contacts that rest on one or several worn bodies that were alike when new."""
 
     kind = ContactKind.RESTING
+
+    mate = "mate"
+    """What rests on a body, in words."""
+
+    lets_go = "the mates leave the worn bodies"
+    """What happens where worn bodies no longer hold them, in words."""
 
     elongation_per_cycle: float
     """Growth of the chain in a cycle."""
@@ -142,10 +148,10 @@ class RestingContact(ABC):
     slack_tension: float
     """Tension of the slack strand [N]; 0 where there is none."""
 
-    roller_area_ratio: float = 0.0
+    mate_area_ratio: float = 0.0
     """Area of its section that a roller loses over that a gap would lose to it in the same cycles."""
 
-    thinnest_roller: float = 0.0
+    thinnest_mate: float = 0.0
     """Radius below which a roller is worn through [mm]."""
 
     slack_limit: float = 0.0
@@ -163,11 +169,11 @@ class RestingContact(ABC):
 
     @property
     @abstractmethod
-    def roller_radius(self) -> float:
+    def mate_radius(self) -> float:
         """Radius of the mate [mm]."""
 
     @property
-    def cycles_per_chain(self) -> float:
+    def cycles_per_mate(self) -> float:
         """Cycles until a new chain has grown to its limit, apart from running-in."""
         return self.elongation_limit / self.elongation_per_cycle
 
@@ -176,7 +182,7 @@ class RestingContact(ABC):
         """Along the outline of a new body [mm]."""
         return self.profile.arc_length
 
-    def chain_after(self, wear: ChainWear, cycles: float, area: float) -> ChainWear:
+    def mate_after(self, wear: MateWear, cycles: float, area: float) -> MateWear:
         """Return what a chain has lost after some more cycles.
 
         Every roller gives off its share of area evenly round its circumference.
@@ -185,7 +191,7 @@ class RestingContact(ABC):
 
         Parameters
         ----------
-        wear : ChainWear
+        wear : MateWear
             What it has lost before.
         cycles : float
             How many.
@@ -194,7 +200,7 @@ class RestingContact(ABC):
 
         Returns
         -------
-        ChainWear
+        MateWear
             What it has lost then.
 
         Raises
@@ -202,19 +208,19 @@ class RestingContact(ABC):
         ContactError
             The rollers are worn through.
         """
-        rest = (self.roller_radius - wear.roller) ** 2 - self.roller_area_ratio * area / math.pi
-        if rest < self.thinnest_roller**2:
+        rest = (self.mate_radius - wear.depth) ** 2 - self.mate_area_ratio * area / math.pi
+        if rest < self.thinnest_mate**2:
             raise ContactError(
                 "roller: must keep a wall around its bush of radius "
-                f"{self.thinnest_roller:.4g} mm, but is worn through at an elongation of "
+                f"{self.thinnest_mate:.4g} mm, but is worn through at an elongation of "
                 f"{100 * wear.elongation:.3g} %: lower stop.elongation_percent or wear.roller_wear_ratio"
             )
-        return ChainWear(
+        return MateWear(
             wear.elongation + cycles * self.elongation_per_cycle,
-            self.roller_radius - math.sqrt(rest) if self.roller_area_ratio else 0.0,
+            self.mate_radius - math.sqrt(rest) if self.mate_area_ratio else 0.0,
         )
 
-    def holds(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
+    def holds(self, x: Rows, y: Rows, wear: MateWear) -> bool:
         """Tell whether worn bodies hold the chain with the least slack tension allowed."""
         return True
 
@@ -231,7 +237,7 @@ class RestingContact(ABC):
         """Return what ``events`` is to remember from call to call, as it is before the first."""
 
     @abstractmethod
-    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows) -> Rows:
+    def events(self, x: Rows, y: Rows, wear: MateWear, memory: Rows) -> Rows:
         """Return what the worn bodies meet in one cycle, a column an event."""
 
     def seating(self, law: Vector, unworn: Rows) -> PressedPlaces:
@@ -252,7 +258,7 @@ class RestingContact(ABC):
         frame = np.empty((4, depth.size))
         flank_frame(x, y, *frame)
         outlines = np.tile(x, (self.bodies, 1)), np.tile(y, (self.bodies, 1))
-        table = self.events(*outlines, NEW_CHAIN, self.memory())
+        table = self.events(*outlines, NEW_MATE, self.memory())
         table = table[:, (table[EVENT_LOAD] > 0.0) & (table[EVENT_BODY] == 0.0)]
         touched = table[EVENT_TOUCHED].round().astype(int)
         often, load, worn, speed = np.zeros((4, depth.size))
@@ -267,5 +273,5 @@ class RestingContact(ABC):
             per_cycle=often,
             slip=worn / np.where(load > 0.0, load, 1.0),
             sliding_speed=np.where(often > 0.0, speed, np.nan),
-            relative_curvature=1.0 / self.roller_radius + frame[2],
+            relative_curvature=1.0 / self.mate_radius + frame[2],
         )

@@ -45,7 +45,7 @@ NUMBERS = 9
 AREA, HARD_AREA, PEAK_PRESSURE, UNBALANCED = range(4)
 FINDINGS = 4
 
-ROLLER_NUMBERS = 15
+EVENT_NUMBERS = 15
 """Constants and results of a roller, which share a row of the work: it has so many columns at least."""
 
 _MAX_ITERATIONS = 2000.0

@@ -25,7 +25,7 @@ def few_cycles(cycles: float) -> list[str]:
 
 def wide_contact(contact: FlankContact, half_width: float) -> list[str]:
     """Return a warning of a contact too wide for half-spaces."""
-    if half_width <= _WIDE * contact.roller_radius:
+    if half_width <= _WIDE * contact.mate_radius:
         return []
     return [
         f"contact half-width up to {half_width:.3g} mm is more than 0.1 of the radius of roller or mate: "

@@ -9,7 +9,7 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.chain.selection import rating_warnings
-from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, RestingContact
+from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit
 from wearsim.geometry.profile_points import Vector, area_between
 from wearsim.mechanisms.wrap.contact import WrapContact
@@ -201,14 +201,14 @@ def _gave_up(run: RestingTrajectory, horizon: float) -> list[str]:
     if run.lost:
         return [f"the run ends before the sprocket's limit, so its life is longer than stated: {run.lost}"]
     return [
-        f"the run ends after {run.updates} steps and {run.chains[-1]:.0f} chains, the most that it takes: "
+        f"the run ends after {run.updates} steps and {run.mates[-1]:.0f} chains, the most that it takes: "
         "the sprocket outlives them, its own limit was not reached"
     ]
 
 
 def _chain_life(case: Case, contact: WrapContact) -> Life | LowerBound:
     """Life of a chain: but for running-in and lubricant its joints wear at a constant rate."""
-    cycles, clock = contact.cycles_per_chain, joint_clock(case, contact)
+    cycles, clock = contact.cycles_per_mate, joint_clock(case, contact)
     horizon = clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour)
     run = float(clock.running_cycles(np.array([min(cycles, horizon)]))[0])
     return life_of(run, case.cycles_per_hour, cycles <= horizon)
@@ -304,21 +304,21 @@ def _limits(
     at = min(at, run.cycles.size - 1)
     worn = limit_states(stop_limits, run.x[at], run.y[at], run.depth[at])
     limit, elongation = drive.joint.elongation_limit, float(run.elongation[at])
-    wear = ChainWear(elongation, float(run.roller_wear[at]))
+    wear = MateWear(elongation, float(run.mate_depth[at]))
     least = _smallest_slack_tension(contact, run.all_depth[at], wear)
-    wall = contact.roller_radius - contact.thinnest_roller
-    rollers = LimitState("roller_wear_mm", wall, wear.roller)
+    wall = contact.mate_radius - contact.thinnest_mate
+    rollers = LimitState("roller_wear_mm", wall, wear.depth)
     return (
         *worn,
         LimitState("elongation_percent", 100.0 * limit, 100.0 * elongation),
-        *((rollers,) if contact.roller_area_ratio else ()),
+        *((rollers,) if contact.mate_area_ratio else ()),
         LimitState(
             "min_slack_tension_N", contact.slack_limit or drive.slack, min(least, drive.heaviest.tension)
         ),
     )
 
 
-def _smallest_slack_tension(contact: WrapContact, depth: Rows, wear: ChainWear) -> float:
+def _smallest_slack_tension(contact: WrapContact, depth: Rows, wear: MateWear) -> float:
     """Slack tension below which the chain jumps on worn gaps [N]."""
     worn = contact.worn_paths(*contact.profile.receded(depth), wear)
     return contact.heaviest_rollers.smallest_slack_tension(wear.elongation, worn)
@@ -329,14 +329,14 @@ def _tables(
 ) -> tuple[dict[str, Vector], dict[str, Vector]]:
     """Return the columns of history.csv and flank.csv."""
     profile, points, path = contact.profile, contact.profile.x.size, contact.mechanism.path
-    pressure, speed = highest_load(contact, law, StartState(run.all_depth[0], NEW_CHAIN, 1))
+    pressure, speed = highest_load(contact, law, StartState(run.all_depth[0], NEW_MATE, 1))
     history = {
         "cycles": run.cycles,
         "time_hours": run.cycles / case.cycles_per_hour,
         "max_depth_mm": run.all_depth.max(axis=(1, 2)),
         "elongation_percent": 100.0 * run.elongation,
-        "roller_wear_mm": run.roller_wear,
-        "chain": run.chains,
+        "roller_wear_mm": run.mate_depth,
+        "chain": run.mates,
         "peak_pressure_MPa": np.array([pressure, *run.peak_pressure[1:]]),
         "max_sliding_speed_mm_per_s": np.array([speed, *run.sliding_speed[1:]]),
         "removed_area_mm2": np.array(

@@ -40,8 +40,8 @@ from wearsim.wear.law import WearLaw
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
 
 _CONFORMS = 1e-5
-"""Relative curvature over that of the roller at which a run that does not get on has come to a flank
-that conforms: the width of the contact is then several roller radii."""
+"""Relative curvature over that of the mate at which a run that does not get on has come to a flank
+that conforms: the width of the contact is then several radii of the mate."""
 
 _CHUNK, MAX_STEPS = 64, 10_000
 """States of a compiled call, and steps of one solve; a life takes some dozens."""
@@ -210,7 +210,7 @@ class _Solve:
         cycles = self.problem.cycles(float(times[-1]))
         x, y, depth = self.state
         if np.isfinite(self.state).all():
-            check_touch(contact, x, y, depth, cycles, _CONFORMS / contact.roller_radius)
+            check_touch(contact, x, y, depth, cycles, _CONFORMS / contact.mate_radius)
         if status == VANISHED:
             raise no_sliding(cycles)
         if status == SAWTOOTH:

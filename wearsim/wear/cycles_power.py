@@ -59,9 +59,8 @@ class CyclesPower(WearClock):
     def assumption(self) -> str:
         """Say what is taken for granted."""
         return (
-            f"wear of teeth and joints goes with the cycles to the power {self.exponent:g}; the coefficient "
-            f"is the mean over the first {self.reference_cycles:.3g} cycles; joints of every new chain begin "
-            "anew"
+            f"wear goes with the cycles to the power {self.exponent:g}; the coefficient "
+            f"is the mean over the first {self.reference_cycles:.3g} cycles; what is renewed begins anew"
         )
 
     def steady_cycles(self, cycles: float) -> float:

@@ -1,4 +1,4 @@
-"""Wear where mates rest: implicit steps over many cycles, the chain growing meanwhile.
+"""Wear where mates rest: implicit steps over many cycles, the mate growing meanwhile.
 
 `run_seated` takes steps of second order that place the mates and wear the bodies together
 (`wearsim.wear.seated_bodies`). `run_resting` is the reference, event by event: a step presses each
@@ -33,10 +33,10 @@ class Pace:
     """How steps grow: depths as parts of the limit, at level 0."""
 
     first: float  # depth of the first step
-    again: float  # depth of the first step after a new chain
+    again: float  # depth of the first step after a new mate
     growth: float  # of the depth of a step over the one before
     longest: float  # the most depth of a step
-    steps_per_chain: int  # least number of steps in the life of a chain
+    steps_per_mate: int  # least number of steps in the life of a mate
 
 
 BY_EVENTS = Pace(3e-5, 3e-5, 1.25, 0.01, 160)
@@ -46,23 +46,23 @@ BY_STAGES = Pace(1e-3, 1e-3, 2.0, 0.03, 16)
 """Steps of implicit stages."""
 
 _PART_OF_AGE = 0.1
-"""Longest way between two snapshots as a part of the age of the chain, where parts run in."""
+"""Longest way between two snapshots as a part of the age of the mate, where parts run in."""
 
 Watch = Callable[[float], bool]
 """Told before every step how much of a run is done; whether to go on."""
 
 _MAX_STEPS = 10_000
-"""Steps of one run at level 0, those of about 60 chains; a run of more ends there, at no limit."""
+"""Steps of one run at level 0, those of about 60 mates; a run of more ends there, at no limit."""
 
 
 @dataclass(frozen=True, eq=False)
 class RestingTrajectory(Trajectory):
-    """Several outlines and the chain as they wear; ``x``, ``y``, ``depth`` are those worn most."""
+    """Several outlines and their mate as they wear; ``x``, ``y``, ``depth`` are those worn most."""
 
     all_depth: Rows  # depth of every body [mm], shape (snapshots, bodies, points)
-    elongation: Vector  # relative elongation of the chain in use, shape (snapshots,)
-    roller_wear: Vector  # depth worn off its rollers [mm], shape (snapshots,)
-    chains: Vector  # number of the chain in use from 1, shape (snapshots,)
+    elongation: Vector  # relative elongation of the mate in use, shape (snapshots,)
+    mate_depth: Vector  # depth worn off it [mm], shape (snapshots,)
+    mates: Vector  # number of the mate in use from 1, shape (snapshots,)
     # peak_pressure, sliding_speed: highest pressure [MPa] and sliding speed [mm/s] of the step that led to
     # each snapshot, after its wear; 0 at the start; shape (snapshots,)
     peak_pressure: Vector
@@ -72,7 +72,7 @@ class RestingTrajectory(Trajectory):
 
 
 class _Snapshots:
-    """Snapshots, thinned out as they become too many; ends of chains stay."""
+    """Snapshots, thinned out as they become too many; ends of mates stay."""
 
     def __init__(self) -> None:
         self.states: list[WornState] = []
@@ -81,11 +81,11 @@ class _Snapshots:
 
     def add_between(self, bodies: WornBodies, before: WornState) -> None:
         """Add states of a step on whose cycles the parts run in, so that a history shows it."""
-        clocks = bodies.running_in, bodies.chains.mate
+        clocks = bodies.running_in, bodies.mates.mate
         if all(clock.is_steady for clock in clocks):
             return
         whole, after = bodies.cycles - before.cycles, bodies.state()
-        age = before.cycles - bodies.chain_in_use.new_at
+        age = before.cycles - bodies.mate_in_use.new_at
         shortest = min(clock.shortest for clock in clocks if not clock.is_steady)
         count = min(int(whole / (_PART_OF_AGE * max(age, shortest))), SNAPSHOTS // 4)
         for place in range(1, count + 1):
@@ -104,7 +104,7 @@ class _Snapshots:
             self.states = [state for i, state in enumerate(self.states) if i % 2 == 0 or id(state) in stay]
             self.stride *= 2
 
-    def end_chain(self, bodies: WornBodies) -> None:
+    def end_mate(self, bodies: WornBodies) -> None:
         self.add(bodies, last=True)
         self.ends.append(self.states[-1])
 
@@ -121,8 +121,8 @@ class _Snapshots:
             updates=bodies.updates,
             all_depth=depth,
             elongation=np.array([state.wear.elongation for state in states]),
-            roller_wear=np.array([state.wear.roller for state in states]),
-            chains=np.array([float(state.chain) for state in states]),
+            mate_depth=np.array([state.wear.depth for state in states]),
+            mates=np.array([float(state.mate) for state in states]),
             peak_pressure=np.array([state.pressure for state in states]),
             sliding_speed=np.array([state.speed for state in states]),
             area=bodies.removed,
@@ -143,11 +143,11 @@ class _StepSize:
         self.depth = self.pace.again * self.limit / self.refined
 
     def cycles(self, bodies: WornBodies) -> float:
-        """Return the cycles of the next step, not beyond the life of the chain in use."""
+        """Return the cycles of the next step, not beyond the life of the mate in use."""
         cycles = self.cycles_per_step or self._by_depth(bodies)
         limit = bodies.contact.elongation_limit
         if bodies.contact.elongation_per_cycle > 0.0:
-            longest = limit / (self.pace.steps_per_chain * self.refined)
+            longest = limit / (self.pace.steps_per_mate * self.refined)
             rest = limit - bodies.wear.elongation
             cycles = min(cycles, bodies.cycles_to(min(longest, rest)))
         return cycles
@@ -216,10 +216,10 @@ def run_resting(
     watch: Watch = lambda part: True,
     start: StartState | None = None,
 ) -> RestingTrajectory:
-    """Wear outlines and chain event by event until a stop limit is met or the horizon is reached.
+    """Wear outlines and mate event by event until a stop limit is met or the horizon is reached.
 
-    At its elongation limit the chain is replaced by a new one. A run by depth that takes too
-    many steps, those of about 60 chains, ends before its horizon.
+    At its elongation limit the mate is replaced by a new one. A run by depth that takes too
+    many steps, those of about 60 mates, ends before its horizon.
     """
     pace = _StepSize(BY_EVENTS, stop_limits[0].limit, level, cycles_per_step)
     return _run(WornBodies(contact, law, start), pace, stop_limits, horizon, watch)
@@ -234,9 +234,9 @@ def run_seated(
     watch: Watch = lambda part: True,
     start: StartState | None = None,
 ) -> RestingTrajectory:
-    """Wear outlines and chain by implicit stages until a stop limit is met or the horizon is reached.
+    """Wear outlines and mate by implicit stages until a stop limit is met or the horizon is reached.
 
-    At its elongation limit the chain is replaced by a new one. A run that takes too many steps
+    At its elongation limit the mate is replaced by a new one. A run that takes too many steps
     ends before its horizon.
     """
     # A run event by event does without.
@@ -277,9 +277,9 @@ def _run(
             return replace(record.trajectory(bodies, None), lost=str(error))
         met = _limit_met(stop_limits, bodies, before)
         record.add_between(bodies, before)
-        if met is None and bodies.chain_is_worn:
-            record.end_chain(bodies)
-            bodies.replace_chain()
+        if met is None and bodies.mate_is_worn:
+            record.end_mate(bodies)
+            bodies.renew_mate()
             pace.restart()
         else:
             record.add(bodies, last=met is not None)

@@ -1,4 +1,4 @@
-"""Worn outlines and a chain, and one step of their wear."""
+"""Worn outlines and a mate, and one step of their wear."""
 
 import math
 from dataclasses import dataclass, replace
@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, RestingContact
+from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile_points import Profile
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
@@ -17,6 +17,7 @@ from wearsim.kernels.wrap_wear import (
     COEFFICIENT,
     CORE_FACTOR,
     CYCLES,
+    EVENT_NUMBERS,
     FINDINGS,
     HARD_AREA,
     MATE_RADIUS,
@@ -24,7 +25,6 @@ from wearsim.kernels.wrap_wear import (
     PEAK_PRESSURE,
     PRESSURE_EXPONENT,
     REACH,
-    ROLLER_NUMBERS,
     SPEED_EXPONENT,
     TOLERANCE,
     UNBALANCED,
@@ -35,7 +35,7 @@ from wearsim.wear.law import WearLaw
 Rows = NDArray[np.float64]
 
 _LEAST = 1e-12
-"""Part of the cycles of a run that a step takes at least: a new chain whose coefficient falls fast is longer
+"""Part of the cycles of a run that a step takes at least: a new mate whose coefficient falls fast is longer
 by much after cycles that are too few to be told apart."""
 
 _REACH = 1.2
@@ -44,24 +44,24 @@ _REACH = 1.2
 
 @dataclass(frozen=True, eq=False)
 class StartState:
-    """Worn outlines and a used chain that a run may begin with."""
+    """Worn outlines and a used mate that a run may begin with."""
 
     depth: Rows  # depth of every body along the normals of the new outline [mm], shape (bodies, points)
-    wear: ChainWear  # what the chain has lost
-    chain: int  # its number from 1
+    wear: MateWear  # what the mate has lost
+    mate: int  # its number from 1
 
 
 @dataclass(frozen=True, eq=False)
 class WornState:
-    """Outlines, depth, area, chain and cycles at one time; pressure and speed of the last step."""
+    """Outlines, depth, area, mate and cycles at one time; pressure and speed of the last step."""
 
     x: Rows
     y: Rows
     depth: Rows
     removed: float
-    wear: ChainWear
+    wear: MateWear
     cycles: float
-    chain: int
+    mate: int
     pressure: float
     speed: float
 
@@ -77,7 +77,7 @@ class WornState:
             y=between(self.y, after.y),
             depth=between(self.depth, after.depth),
             removed=self.removed + part * (after.removed - self.removed),
-            wear=ChainWear(
+            wear=MateWear(
                 *(old + part * (new - old) for old, new in zip(self.wear, after.wear, strict=True))
             ),
             cycles=self.cycles + part * (after.cycles - self.cycles),
@@ -85,7 +85,7 @@ class WornState:
 
 
 class WornBodies:
-    """Worn outlines, the chain, and one step of their wear.
+    """Worn outlines, the mate, and one step of their wear.
 
     Parameters
     ----------
@@ -119,15 +119,15 @@ class WornBodies:
         self.numbers[PRESSURE_EXPONENT] = law.pressure_exponent
         self.numbers[SPEED_EXPONENT] = law.speed_exponent
         self.numbers[CASE_DEPTH], self.numbers[CORE_FACTOR] = law.case_depth, law.core_factor
-        self.numbers[REACH] = math.ceil(_REACH * contact.roller_radius / step)
+        self.numbers[REACH] = math.ceil(_REACH * contact.mate_radius / step)
         self.numbers[TOLERANCE] = 1e-6
-        self.work = np.zeros((3 + WORK_ROWS, max(points, ROLLER_NUMBERS)))
+        self.work = np.zeros((3 + WORK_ROWS, max(points, EVENT_NUMBERS)))
         self.findings = np.zeros(FINDINGS)
         self.pressures = np.zeros((0, points))
         self.memory = contact.memory()
-        self.wear, self.cycles, self.chain = NEW_CHAIN, 0.0, 1
-        self.running_in, self.chains = law.running_in, law.mates
-        self.chain_in_use = self.chains.put_on(0.0)
+        self.wear, self.cycles, self.mate = NEW_MATE, 0.0, 1
+        self.running_in, self.mates = law.running_in, law.mates
+        self.mate_in_use = self.mates.put_on(0.0)
         self.updates, self.removed, self.speed = 0, 0.0, 0.0
         if start is not None:
             self._begin(profile, start)
@@ -136,7 +136,7 @@ class WornBodies:
         self.depth = start.depth.copy()
         self.area = self.depth * (1.0 - 0.5 * profile.curvature * self.depth)
         self.x, self.y = profile.receded(self.depth)
-        self.wear, self.chain = start.wear, start.chain
+        self.wear, self.mate = start.wear, start.mate
 
     def state(self) -> "WornState":
         """Return a copy of all that changes."""
@@ -147,7 +147,7 @@ class WornBodies:
             self.removed,
             self.wear,
             self.cycles,
-            self.chain,
+            self.mate,
             float(self.findings[PEAK_PRESSURE]),
             self.speed,
         )
@@ -167,8 +167,8 @@ class WornBodies:
         self.speed = highest_speed(table)
         self.removed += float(self.findings[AREA])
         hard_area = float(self.findings[HARD_AREA]) / self.contact.bodies
-        joints = self.joint_cycles(self.cycles + cycles) - self.joint_cycles(self.cycles)
-        self.wear = self.contact.chain_after(self.wear, joints, hard_area)
+        of_mate = self.mate_cycles(self.cycles + cycles) - self.mate_cycles(self.cycles)
+        self.wear = self.contact.mate_after(self.wear, of_mate, hard_area)
         self.cycles += cycles
         self.updates += 1
         return float((self.depth - before).max())
@@ -176,8 +176,8 @@ class WornBodies:
     def no_wear(self) -> str:
         """Say that nothing wears."""
         return (
-            f"contact at cycle {self.cycles:.6g}: loaded rollers must slide, but none does: without load and "
-            "sliding there is no wear and no life"
+            f"contact at cycle {self.cycles:.6g}: a loaded {self.contact.mate} must slide, but none does: "
+            "without load and sliding there is no wear and no life"
         )
 
     def first_rate(self) -> float:
@@ -187,39 +187,39 @@ class WornBodies:
         table = table[:, table[EVENT_LOAD] * table[EVENT_SLIP] * table[EVENT_COUNT] > 0.0]
         if table.shape[1] == 0:
             return math.inf
-        hertz = np.sqrt(table[EVENT_LOAD] * contact.modulus / (math.pi * contact.roller_radius))
+        hertz = np.sqrt(table[EVENT_LOAD] * contact.modulus / (math.pi * contact.mate_radius))
         worn = hertz ** numbers[PRESSURE_EXPONENT] * table[EVENT_SPEED] ** numbers[SPEED_EXPONENT]
         worn *= numbers[COEFFICIENT] * table[EVENT_SLIP] * table[EVENT_COUNT]
         return float(worn.max())
 
-    def joint_cycles(self, until: float) -> float:
-        """Return for how many cycles of constant coefficient the chain in use has worn."""
-        return self.chain_in_use.worn(until)
+    def mate_cycles(self, until: float) -> float:
+        """Return for how many cycles of constant coefficient the mate in use has worn."""
+        return self.mate_in_use.worn(until)
 
     def cycles_to(self, elongation: float) -> float:
-        """Return the cycles from now until the chain in use is longer by so much."""
-        worn = self.joint_cycles(self.cycles) + elongation / self.contact.elongation_per_cycle
-        cycles = self.chain_in_use.until(worn) - self.cycles
+        """Return the cycles from now until the mate in use is longer by so much."""
+        worn = self.mate_cycles(self.cycles) + elongation / self.contact.elongation_per_cycle
+        cycles = self.mate_in_use.until(worn) - self.cycles
         return max(cycles, _LEAST * self.cycles)
 
     @property
-    def chain_is_worn(self) -> bool:
-        """Whether the chain in use has grown to its limit."""
+    def mate_is_worn(self) -> bool:
+        """Whether the mate in use has grown to its limit."""
         contact = self.contact
         worn = self.wear.elongation >= contact.elongation_limit * (1.0 - 1e-9)
         return worn and contact.elongation_per_cycle > 0.0
 
-    def replace_chain(self) -> None:
-        """Put on a new chain."""
-        self.wear, self.chain = NEW_CHAIN, self.chain + 1
-        self.chain_in_use = self.chains.put_on(self.cycles)
+    def renew_mate(self) -> None:
+        """Put on a new mate."""
+        self.wear, self.mate = NEW_MATE, self.mate + 1
+        self.mate_in_use = self.mates.put_on(self.cycles)
 
     def press(self, table: Rows, cycles: float) -> None:
         """Let events wear the bodies."""
         if self.pressures.shape[0] != table.shape[1]:
             self.pressures = np.zeros((table.shape[1], self.x.shape[1]))
         self.numbers[CYCLES] = cycles
-        self.numbers[MATE_RADIUS] = self.contact.roller_radius - self.wear.roller
+        self.numbers[MATE_RADIUS] = self.contact.mate_radius - self.wear.depth
         wear_events(
             table,
             self.updates % 2,
@@ -236,8 +236,8 @@ class WornBodies:
         )
         if self.findings[UNBALANCED] > 0.0 or not np.isfinite(self.depth).all():
             raise ConvergenceError(
-                f"wear at cycle {self.cycles:.6g}: the pressure of every roller must be found, but "
-                f"{int(self.findings[UNBALANCED])} of {table.shape[1]} were not: use more nodes"
+                f"wear at cycle {self.cycles:.6g}: the pressure of every {self.contact.mate} must be found, "
+                f"but {int(self.findings[UNBALANCED])} of {table.shape[1]} were not: use more nodes"
             )
 
 

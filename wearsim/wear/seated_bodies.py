@@ -1,4 +1,4 @@
-"""Worn outlines and a chain in implicit steps of second order: wear and places found together.
+"""Worn outlines and a mate in implicit steps of second order: wear and places found together.
 
 Two stages of Alexander's method (SDIRK2, gamma = 1 - 1/sqrt(2); R. Alexander 1977, SIAM J. Numer.
 Anal. 14, 1006): L-stable, its second stage is the result. The mates are not part of the state, they
@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.resting_engagement import ChainWear, RestingContact
+from wearsim.contact.resting_engagement import MateWear, RestingContact
 from wearsim.errors import ContactError, ConvergenceError, JumpError
 from wearsim.kernels.wrap_wear import AREA, HARD_AREA, SPACING, UNWORN_CURVATURE, recede
 from wearsim.wear.law import WearLaw
@@ -34,7 +34,7 @@ _FARTHEST = 0.005
 
 
 class SeatedBodies(WornBodies):
-    """Worn outlines, the chain, and a step of their wear by implicit stages.
+    """Worn outlines, the mate, and a step of their wear by implicit stages.
 
     Parameters
     ----------
@@ -80,9 +80,9 @@ class SeatedBodies(WornBodies):
             raise ContactError(self.no_wear())
         self.growth, self.seated = None, True
 
-    def replace_chain(self) -> None:
-        """Put on a new chain, whose rollers rest elsewhere."""
-        super().replace_chain()
+    def renew_mate(self) -> None:
+        """Put on a new mate, which rests elsewhere."""
+        super().renew_mate()
         self.seated = False
 
     def step(self, cycles: float) -> float:
@@ -98,11 +98,11 @@ class SeatedBodies(WornBodies):
                 self.seating.restore(kept)
                 cycles *= 0.5
             kept, self.growth = self.seating.kept(), None
-        if self.seating.jumps(self.x, self.y, self._chain(cycles)):
-            raise JumpError(f"contact at cycle {self.cycles:.6g}: the chain jumps on the worn teeth")
+        if self.seating.jumps(self.x, self.y, self._mate_after(cycles)):
+            raise JumpError(f"contact at cycle {self.cycles:.6g}: {self.contact.lets_go}")
         raise ConvergenceError(
-            f"wear at cycle {self.cycles:.6g}: the places and pressures of all rollers must be found, but "
-            "are not: use other nodes or phases"
+            f"wear at cycle {self.cycles:.6g}: the place and pressure of every {self.contact.mate} must be "
+            "found, but is not: use other nodes or phases"
         )
 
     def _seated_anew(self) -> bool:
@@ -113,11 +113,11 @@ class SeatedBodies(WornBodies):
             return False
         return True
 
-    def _chain(self, cycles: float, hard_area: float | None = None) -> ChainWear:
-        """Return what the chain will have lost, by default to gaps that wear as fast as in the last step."""
-        joints = self.joint_cycles(self.cycles + cycles) - self.joint_cycles(self.cycles)
+    def _mate_after(self, cycles: float, hard_area: float | None = None) -> MateWear:
+        """Return what the mate will have lost, by default to gaps that wear as fast as in the last step."""
+        of_mate = self.mate_cycles(self.cycles + cycles) - self.mate_cycles(self.cycles)
         worn = self.hard_rate * cycles if hard_area is None else hard_area
-        return self.contact.chain_after(self.wear, joints, worn)
+        return self.contact.mate_after(self.wear, of_mate, worn)
 
     def _stages(self, cycles: float) -> Rows | None:
         """Return the work done after a step, None where a stage is not found."""
@@ -129,21 +129,21 @@ class SeatedBodies(WornBodies):
             self._move(self.drift * inner)
         before = places.copy()
         self.seating.drift[:] = self.drift * cycles if self.growth is not None else 0.0
-        if not self.seating.stage(begin, inner, works, self._chain(inner), _FIRST_SWEPT):
+        if not self.seating.stage(begin, inner, works, self._mate_after(inner), _FIRST_SWEPT):
             return None
         growth, middle = (works - begin) / inner, places.copy()
         if self.growth is not None:
             self._move((middle - before + self.drift * inner) * (outer / inner))
         base = begin + outer * growth
         works = begin + cycles * growth
-        if not self.seating.stage(base, inner, works, self._chain(cycles), _SECOND_SWEPT):
+        if not self.seating.stage(base, inner, works, self._mate_after(cycles), _SECOND_SWEPT):
             return None
         self.growth, self.drift = (works - base) / inner, (places - middle) / outer
         return np.maximum(works, begin)
 
     def _move(self, way: Rows) -> None:
         """Move the mates ahead of a stage."""
-        farthest = _FARTHEST * self.contact.roller_radius
+        farthest = _FARTHEST * self.contact.mate_radius
         self.seating.places[:] += np.clip(way, -farthest, farthest)
 
     def _accept(self, works: Rows, cycles: float) -> None:
@@ -151,7 +151,7 @@ class SeatedBodies(WornBodies):
         area = np.minimum(works, self.hard) + self.law.core_factor * np.maximum(works - self.hard, 0.0)
         worn = float(((area - self.area) * spacing).sum())
         hard_area = float(((works - self.works) * spacing).sum()) / self.contact.bodies
-        self.wear = self._chain(cycles, hard_area)
+        self.wear = self._mate_after(cycles, hard_area)
         self.hard_rate = hard_area / cycles
         self.works, self.area = works, area
         for body in range(self.contact.bodies):

@@ -58,12 +58,12 @@ def run_together(
 
 
 def spared(run: RestingTrajectory, depth_limit: float, error: float) -> float:
-    """Return the error of a life that may have ended with a chain before, as near as the depth came then.
+    """Return the error of a life that may have ended with a mate before, as near as the depth came then.
 
-    A new chain presses elsewhere: where the depth just misses its limit at the end of a chain, the
+    A new mate presses elsewhere: where the depth just misses its limit at the end of a mate, the
     life goes on for long, and a small error of the depth is a large one of the life.
     """
-    ends = np.flatnonzero(np.diff(run.chains) > 0.0)
+    ends = np.flatnonzero(np.diff(run.mates) > 0.0)
     near = ends[run.all_depth[ends].max(axis=(1, 2)) >= (1.0 - error) * depth_limit]
     return float((1.0 + error) * run.cycles[-1] / run.cycles[near[0]] - 1.0) if near.size else error
 
@@ -77,13 +77,13 @@ def advance_resting(
     start: StartState | None = None,
     progress: Callable[[float], None] = lambda part: None,
 ) -> tuple[RestingTrajectory, float]:
-    """Wear outlines and chain until the life is within its tolerance as far as a coarser run tells.
+    """Wear outlines and mate until the life is within its tolerance as far as a coarser run tells.
 
     Beside each run goes one with steps twice as long on half of the points and phases, which takes an eighth
     of the time. It tells how wrong steps, points and phases together make the life. Where that is too much,
     both take half of the steps, three times at most and as long as this helps; then twice the phases with
     steps halved once and twice. All runs together take less than thirty times as long as the first.
-    A life that a new chain has only just prolonged is as uncertain as the time since.
+    A life that a new mate has only just prolonged is as uncertain as the time since.
 
     Equation physics.md (W14).
 
@@ -115,9 +115,9 @@ def advance_resting(
     Raises
     ------
     ContactError
-        Nothing wears, the rollers are worn through, or the chain jumps from the first cycle on.
+        Nothing wears, a mate is worn through, or worn bodies do not hold it from the first cycle on.
     ConvergenceError
-        No equilibrium of the rollers is found.
+        No equilibrium of the mates is found.
     """
     tried = itertools.count()
     finer = contact.refined() if start is None else None

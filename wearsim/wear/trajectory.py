@@ -55,7 +55,7 @@ def check_touch(
         point = int(pulling.argmax())
         raise ContactError(
             f"contact at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root: the flank "
-            "must press on the roller (pressure angle below 90 degrees), but is worn so far that it "
+            "must press on the {contact.mate} (pressure angle below 90 degrees), but is worn so far that it "
             "would pull there: move contact_end_mm away from the line of the pitch point, or stop at a "
             "smaller depth"
         )
@@ -63,7 +63,7 @@ def check_touch(
     if not loaded.any():
         deepest = contact.arc_length[int(depth.argmax())]
         raise ContactError(
-            f"contact at cycle {cycles:.6g}, deepest {deepest:.4g} mm from the root: the roller must "
+            f"contact at cycle {cycles:.6g}, deepest {deepest:.4g} mm from the root: the {contact.mate} must "
             "touch the loaded stretch of the flank, but touches no point of it: check the contact range, "
             "or stop at a smaller depth"
         )
@@ -72,8 +72,8 @@ def check_touch(
         point = int(conforming.argmax())
         raise ContactError(
             f"contact at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root: Hertz "
-            "needs a flank flatter than the roller (1/rho_H > 0), but 1/rho_H is "
-            f"{touch.relative_curvature[point]:.3g} 1/mm there: the flank conforms to the roller; "
+            f"needs a flank flatter than the {contact.mate} (1/rho_H > 0), but 1/rho_H is "
+            f"{touch.relative_curvature[point]:.3g} 1/mm there: the flank conforms to the {contact.mate}; "
             "use a larger flank radius or a smaller critical depth"
         )
 

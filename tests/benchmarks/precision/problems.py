@@ -86,7 +86,7 @@ def b9(nodes):
         slip=0.05 + 0.4 * u,
         sliding_speed=np.full(nodes, np.nan),
         flank_curvature=np.full(nodes, 1.0 / 39.1),
-        roller_radius=6.035,
+        mate_radius=6.035,
         modulus=MODULUS,
     )
     return Problem(mechanism.contact, archard(1e-10), 0.5, 0)
@@ -165,7 +165,7 @@ class Rate:
         )
         load, slip, speed, relative = self.touch
         # A trial of the solver may conform where the solution does not.
-        np.maximum(relative, 1e-6 / contact.roller_radius, out=relative)
+        np.maximum(relative, 1e-6 / contact.mate_radius, out=relative)
         wear_depth(load, slip, speed, relative, contact.modulus, self.numbers, self.step)
         soften_edges(depth, self.numbers, self.step)
         rate = np.empty((self.step.size, 3))

@@ -36,7 +36,7 @@ class PrescribedMechanism:
     slip: Vector  # slip ratio or path [mm]
     sliding_speed: Vector  # sliding speed [mm/s], nan where it is not given
     flank_curvature: Vector  # of the unworn flank, convex positive [1/mm]; the end rows keep it as they wear
-    roller_radius: float  # radius of the mate [mm]
+    mate_radius: float  # radius of the mate [mm]
     modulus: float  # contact modulus E* [MPa]
 
     @cached_property
@@ -55,11 +55,12 @@ class PrescribedMechanism:
         return FlankContact(
             kind=self.kind,
             kernel=prescribed_contact,
-            constants=np.array([1.0 / self.roller_radius]),
+            constants=np.array([1.0 / self.mate_radius]),
             columns=np.array(rows),
             profile=profile,
             arc_length=self.arc_length,
-            roller_radius=self.roller_radius,
+            mate_radius=self.mate_radius,
+            mate="roller",
             modulus=self.modulus,
             slip_curvature_exponent=0.0,
             offset_form=True,

@@ -40,6 +40,6 @@ class PrescribedDrive(Drive):
             slip=self.slip_fraction * slip,
             sliding_speed=self.slip_fraction * speed if speed is not None else np.full(slip.size, np.nan),
             flank_curvature=table.flank_curvature,
-            roller_radius=0.5 * self.chain.roller_diameter,
+            mate_radius=0.5 * self.chain.roller_diameter,
             modulus=case.modulus,
         )

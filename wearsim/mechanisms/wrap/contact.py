@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear, PressedPlaces, RestingContact
+from wearsim.contact.resting_engagement import NEW_MATE, MateWear, PressedPlaces, RestingContact
 from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile_points import Profile
 from wearsim.geometry.roller_path import WornPath, roller_path
@@ -51,6 +51,9 @@ class WrapBlock:
 class WrapContact(RestingContact):
     """Contact events of a wrap over one revolution, for the wear engine."""
 
+    mate = "roller"
+    lets_go = "the chain jumps on the worn teeth"
+
     blocks: tuple[
         WrapBlock, ...
     ]  # the duty that loads this side of the gaps; they differ in their tensions and speeds only
@@ -63,7 +66,7 @@ class WrapContact(RestingContact):
     elongation_per_cycle: float
     elongation_limit: float  # relative elongation at which a new chain is put on
     # area of its section that a roller loses over that a gap would lose to it; 0 where rollers do not wear
-    roller_area_ratio: float = 0.0
+    mate_area_ratio: float = 0.0
     # least slack tension at which the life ends once it is needed [N]; 0 for no such limit
     slack_limit: float = 0.0
     joint_sliding_per_cycle: float = 0.0  # way that a pin slides in its bush in a revolution [mm]
@@ -94,12 +97,12 @@ class WrapContact(RestingContact):
         return 2 if self.mechanism.chain.alternating and self.same_link_kind else 1
 
     @property
-    def roller_radius(self) -> float:
+    def mate_radius(self) -> float:
         """Radius of the roller [mm]."""
         return self.mechanism.chain.roller_radius
 
     @property
-    def thinnest_roller(self) -> float:  # type: ignore[override]
+    def thinnest_mate(self) -> float:  # type: ignore[override]
         """Radius of the bush that the rollers turn on [mm]."""
         return self.mechanism.chain.bush_radius
 
@@ -113,7 +116,7 @@ class WrapContact(RestingContact):
         """Way that the rollers slide in a new gap in a cycle of a new chain [mm], the mean of the duty."""
         x, y = (np.tile(row, (self.bodies, 1)) for row in (self.profile.x, self.profile.y))
         blocks = tuple(replace(block, wear_factor=1.0) for block in self.blocks)
-        table = replace(self, blocks=blocks).events(x, y, NEW_CHAIN, self.memory())
+        table = replace(self, blocks=blocks).events(x, y, NEW_MATE, self.memory())
         return float(np.sum(table[EVENT_SLIP] * table[EVENT_COUNT])) / self.bodies
 
     def coarsened(self) -> "WrapContact":
@@ -131,7 +134,7 @@ class WrapContact(RestingContact):
 
     def on_outline(self, outline: Profile) -> "WrapContact":
         """Return the same contact on another outline."""
-        path = roller_path(outline, self.roller_radius, (outline.x.size + 1) // 2)
+        path = roller_path(outline, self.mate_radius, (outline.x.size + 1) // 2)
         blocks = tuple(
             replace(block, mechanism=replace(block.mechanism, outline=outline, path=path))
             for block in self.blocks
@@ -150,7 +153,7 @@ class WrapContact(RestingContact):
         configurations = 2 if self.mechanism.chain.alternating else 1
         return np.full((len(self.blocks), configurations, self.phases, self.most_rollers), -1.0)
 
-    def events(self, x: Rows, y: Rows, wear: ChainWear, memory: Rows) -> Rows:
+    def events(self, x: Rows, y: Rows, wear: MateWear, memory: Rows) -> Rows:
         """Return what worn gaps meet in one revolution.
 
         Equation physics.md (W9), of the slip where the chain articulates.
@@ -159,7 +162,7 @@ class WrapContact(RestingContact):
         ----------
         x, y : numpy.ndarray
             Worn outlines [mm], shape (bodies, points).
-        wear : ChainWear
+        wear : MateWear
             What the chain has lost.
         memory : numpy.ndarray
             Where the rollers were last; replaced by where they are.
@@ -185,12 +188,12 @@ class WrapContact(RestingContact):
         ]
         return np.concatenate(tables, axis=1)
 
-    def worn_paths(self, x: Rows, y: Rows, wear: ChainWear) -> tuple[WornPath, ...]:
+    def worn_paths(self, x: Rows, y: Rows, wear: MateWear) -> tuple[WornPath, ...]:
         """Return where the centres of a chain's rollers can be in worn gaps."""
-        path = replace(self.mechanism.path, roller_radius=self.roller_radius - wear.roller)
+        path = replace(self.mechanism.path, roller_radius=self.mate_radius - wear.depth)
         return tuple(path.worn(x[body], y[body]) for body in range(self.bodies))
 
-    def holds(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
+    def holds(self, x: Rows, y: Rows, wear: MateWear) -> bool:
         """Tell whether worn gaps hold the chain with the least slack tension allowed."""
         if not self.slack_limit:
             return True
@@ -198,7 +201,7 @@ class WrapContact(RestingContact):
         return mechanism.holds(wear.elongation, self.worn_paths(x, y, wear))
 
     def _block_events(
-        self, block: WrapBlock, worn: tuple[WornPath, ...], wear: ChainWear, memory: Rows
+        self, block: WrapBlock, worn: tuple[WornPath, ...], wear: MateWear, memory: Rows
     ) -> Rows:
         """Return what worn gaps meet in one revolution of a block, times its share."""
         mechanism = block.mechanism
@@ -211,7 +214,7 @@ class WrapContact(RestingContact):
         numbers = np.zeros(CYCLE_NUMBERS)
         numbers[WRAP_ANGLE], numbers[FACE_WIDTH] = mechanism.wrap_angle, self.face_width
         numbers[ARTICULATION_SLIP] = (
-            self.sliding.fraction * (self.roller_radius - wear.roller) * mechanism.pitch_angle
+            self.sliding.fraction * (self.mate_radius - wear.depth) * mechanism.pitch_angle
         )
         numbers[PATH_SLIP] = self.sliding.path_fraction
         numbers[PHASE_TIME] = block.pitch_time / self.phases
@@ -261,7 +264,7 @@ class WrapContact(RestingContact):
             f"flank: {100.0 * sliding.path_fraction:g} % of its way",
             "wear from the pressure of the roller on the worn gap as an elastic foundation, the pressures "
             "shown from half-space contact; "
-            + ("rollers wear all round" if self.roller_area_ratio else "rollers do not wear"),
+            + ("rollers wear all round" if self.mate_area_ratio else "rollers do not wear"),
             "every tooth alike"
             if self.bodies == 1
             else "teeth of two kinds: those that meet inner and those that meet outer links",

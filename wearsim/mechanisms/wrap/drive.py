@@ -335,7 +335,7 @@ class WrapDrive(Drive):
             * engaged
             / links,
             # Other sprockets wear the rollers too, by the same way over their own articulation.
-            roller_area_ratio=case.wear.roller_ratio * engaged / links * (1.0 + others),
+            mate_area_ratio=case.wear.roller_ratio * engaged / links * (1.0 + others),
             slack_limit=case.more_limits.get("min_slack_tension_N", 0.0),
         )
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.resting_engagement import ChainWear, PressedPlaces
+from wearsim.contact.resting_engagement import MateWear, PressedPlaces
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.event_rows import (
@@ -138,7 +138,7 @@ class WrapSeating(PressedPlaces):
         step = float(contact.arc_length[-1]) / (self.unworn.shape[1] - 1)
         numbers[WRAP_ANGLE], numbers[FACE_WIDTH] = contact.mechanism.wrap_angle, contact.face_width
         numbers[PATH_SLIP], numbers[MODULUS] = contact.sliding.path_fraction, contact.modulus
-        numbers[REACH] = math.ceil(_REACH * contact.roller_radius / step)
+        numbers[REACH] = math.ceil(_REACH * contact.mate_radius / step)
         numbers[TOLERANCE] = _TOLERANCE
         self.coefficient = float(law[0])
         numbers[[EXPONENT, SPEED_POWER, HARD_DEPTH, SOFTNESS]] = law[1:]
@@ -162,9 +162,9 @@ class WrapSeating(PressedPlaces):
         """Go back to a copy."""
         self.seats[:], self.pressures[:] = kept
 
-    def _set(self, cycles: float, wear: ChainWear) -> None:
+    def _set(self, cycles: float, wear: MateWear) -> None:
         contact, numbers = self.contact, self.numbers
-        radius = contact.roller_radius - wear.roller
+        radius = contact.mate_radius - wear.depth
         numbers[ROLLER_RADIUS], numbers[RATE_FACTOR] = radius, self.coefficient * cycles
         numbers[ARTICULATION_SLIP] = contact.sliding.fraction * radius * contact.mechanism.pitch_angle
         for row, block in zip(self.blocks, contact.blocks, strict=True):
@@ -193,14 +193,14 @@ class WrapSeating(PressedPlaces):
         )
         return status == SEATED and bool(np.isfinite(works).all())
 
-    def seat(self, works: Rows, x: Rows, y: Rows, wear: ChainWear) -> None:
+    def seat(self, works: Rows, x: Rows, y: Rows, wear: MateWear) -> None:
         """Seat the rollers anew, beginning from where they rest on rigid outlines."""
         contact = self.contact
         worn = contact.worn_paths(x, y, wear)
         self._set(0.0, wear)
         self.seats[:] = 0.0
         self.seats[PLACE] = -1.0
-        self.seats[HALF_WIDTH] = 0.05 * contact.roller_radius
+        self.seats[HALF_WIDTH] = 0.05 * contact.mate_radius
         self.pressures[:] = 0.0
         event, most = 0, self.most
         for block in contact.blocks:
@@ -227,14 +227,14 @@ class WrapSeating(PressedPlaces):
         return body
 
     def stage(
-        self, base: Rows, cycles: float, works: Rows, wear: ChainWear, swept: tuple[float, float]
+        self, base: Rows, cycles: float, works: Rows, wear: MateWear, swept: tuple[float, float]
     ) -> bool:
         """Replace a guess by the base and the work of so many cycles at the pressures in the end."""
         self._set(cycles, wear)
         self.numbers[[BEHIND, AHEAD]] = swept
         return self._solve(base, works, _PASSES)
 
-    def jumps(self, x: Rows, y: Rows, wear: ChainWear) -> bool:
+    def jumps(self, x: Rows, y: Rows, wear: MateWear) -> bool:
         """Tell whether the chain jumps on rigid outlines."""
         worn = self.contact.worn_paths(x, y, wear)
         return not self.contact.heaviest_rollers.holds(wear.elongation, worn)

@@ -340,5 +340,5 @@ def _joints(case: Case) -> tuple[float, float, float]:
     if JOINT not in case.drive.wear_coefficients:
         return math.nan, math.nan, math.nan
     contact = wrap_of(case).contact(case)
-    hours = contact.cycles_per_chain / case.cycles_per_hour
+    hours = contact.cycles_per_mate / case.cycles_per_hour
     return case.drive.wear_coefficients[JOINT], 100.0 * contact.elongation_limit / hours, hours

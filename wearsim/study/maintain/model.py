@@ -257,5 +257,5 @@ def _run_count(count: ToothCount, case: Case, warnings: list[str]) -> ToothCount
 
 def chain_life(case: Case) -> Life:
     """Return the life of a chain, whose joints wear at a constant rate."""
-    cycles = wrap_of(case).contact(case).cycles_per_chain
+    cycles = wrap_of(case).contact(case).cycles_per_mate
     return Life(cycles, cycles / case.cycles_per_hour)

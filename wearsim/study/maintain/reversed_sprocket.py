@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.case.model import Case
-from wearsim.contact.resting_engagement import NEW_CHAIN, ChainWear
+from wearsim.contact.resting_engagement import NEW_MATE, MateWear
 from wearsim.contact.stop_limits import LIMITS, StopLimit, deepest, stop_limit
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.contact import WrapContact
@@ -21,10 +21,10 @@ def reversed_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, flo
     points = contact.profile.x.size
     depth = first.flank_columns["depth_mm"][-contact.bodies * points :].reshape(-1, points)
     history = first.history_columns
-    wear = ChainWear(0.01 * float(history["elongation_percent"][-1]), float(history["roller_wear_mm"][-1]))
+    wear = MateWear(0.01 * float(history["elongation_percent"][-1]), float(history["roller_wear_mm"][-1]))
     chain = int(history["chain"][-1])
     if wear.elongation >= contact.elongation_limit * (1.0 - 1e-9):
-        wear, chain = NEW_CHAIN, chain + 1
+        wear, chain = NEW_MATE, chain + 1
     reversed_ = contact.on_outline(contact.profile.mirrored())
     start = StartState(depth[:, ::-1].copy(), wear, chain)
     stop_limits = _stop_limits(case, reversed_, _working_half(contact, depth))

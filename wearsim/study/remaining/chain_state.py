@@ -96,7 +96,7 @@ def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -
 
 def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainState:
     """Return what a log says, by the clock of the wear as it ran and goes on."""
-    cycles_per_chain = wrap_of(as_logged).contact(as_logged).cycles_per_chain
+    cycles_per_chain = wrap_of(as_logged).contact(as_logged).cycles_per_mate
     clock, per_hour = chain_clock(as_logged), as_logged.cycles_per_hour
     today = log.relubrications.today
     rate = limit / cycles_per_chain

@@ -171,7 +171,7 @@ def _chain(case: Case, reading: SingleReading) -> _PartHistory:
         raise _fault(reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
     drive = wrap_of(case)
     contact = drive.contact(case)
-    [cycles] = chain_clock(case).running_cycles(np.array([contact.cycles_per_chain])).tolist()
+    [cycles] = chain_clock(case).running_cycles(np.array([contact.cycles_per_mate])).tolist()
     life = Life(cycles, cycles / case.cycles_per_hour)
     return _PartHistory(
         hours=np.array([0.0, life.hours]),
