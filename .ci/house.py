@@ -25,8 +25,9 @@ MODULES = {
     ".".join(("wearsim", *path.relative_to(ROOT).with_suffix("").parts)).removesuffix(".__init__"): path
     for path in sorted(ROOT.rglob("*.py"))
 }
-FEATURE = ("__init__", "keys", "model", "answer", "command", "figure", "sheet")
-"""Names of files that every feature folder may have."""
+FEATURE = ("__init__", "keys", "read", "law", "model", "answer", "command", "figure", "sheet")
+MECHANISM = ("keys", "build", "drive", "contact", "scene")
+"""Names of files that every feature folder, and every mechanism, may have; those of cli/ are commands."""
 
 COARSE = "--set run.life_tolerance=0.1 --set mechanism.phases=1"
 WALKS = {
@@ -69,6 +70,12 @@ def entered(words: list[str]) -> list[str]:
     finally:
         sys.setprofile(None)
     return sorted(file.removeprefix(within) for file in files)
+
+
+def has_fixed_name(path: Path) -> bool:
+    """Whether a file has one of the names that stand for a role, or for a command."""
+    role = path.parts[0] == "cli" or (path.parts[0] == "mechanisms" and path.stem in MECHANISM)
+    return role or path.stem in FEATURE
 
 
 def imports_of(source: str, for_types: bool = False) -> set[str]:
@@ -138,7 +145,7 @@ def main() -> None:
     for name, words in WALKS.items():
         print(f"{name:12} {walk(words):6}  {words.split(' --')[0]}", flush=True)
 
-    names = Counter(path.stem for path in MODULES.values() if path.stem not in FEATURE)
+    names = Counter(path.stem for path in MODULES.values() if not has_fixed_name(path.relative_to(ROOT)))
     recurring = [f"{name} {count}" for name, count in names.most_common() if count > 1]
     print(f"\nrecurring file names: {len(recurring)} ({', '.join(recurring)})")
     run, typed = (

@@ -15,7 +15,7 @@ from wearsim.drive.load_case import load_case, load_drive
 from wearsim.input.document import CaseText, is_whole_drive
 from wearsim.page.answers import edited_case
 from wearsim.page.case_file import example, example_titles
-from wearsim.page.comparison import compared_rows
+from wearsim.page.comparison_panel import compared_rows
 from wearsim.page.edit_history import EditHistory
 from wearsim.page.rating_lights import light, rating_list
 from wearsim.page.toml_source import parsed_tables, with_value

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 from wearsim.study.judge.laws import laws_for, ln_shape
 from wearsim.study.judge.model import judge_series
 from wearsim.study.judge.sampler import draws
-from wearsim.study.judge.scatter import Scatter, forecasts, log_scores, quantiles
+from wearsim.study.judge.series_scatter import Scatter, forecasts, log_scores, quantiles
 from wearsim.study.judge.wear_series import WearReading, wear_series
 
 pytestmark = pytest.mark.wide

@@ -23,7 +23,7 @@ from wearsim.simulation.wear_task import wear_law
 from wearsim.study.remaining.model import SingleReading, remaining_life
 from wearsim.wear.cycles_power import CyclesPower
 from wearsim.wear.mate_clock import LubricatedClock, MateClock
-from wearsim.wear.severity import severe_multiple, t_gamma_energy
+from wearsim.wear.severe_wear import severe_multiple, t_gamma_energy
 
 CaseMaker = Callable[..., wearsim.Case]
 

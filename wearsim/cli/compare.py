@@ -61,7 +61,7 @@ def compare(
     found = results_of(loaded, as_json)
     from wearsim.drive.drive_result import DriveLife
     from wearsim.report.comparison import comparison_text, differing_limits, distinct, save_comparison
-    from wearsim.report.drive.comparison import drives_text, save_drives
+    from wearsim.report.drive.drives_table import drives_text, save_drives
 
     drives = [one for one in found.values() if isinstance(one, DriveLife)]
     runs = {str(path): one for path, one in found.items() if not isinstance(one, DriveLife)}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.cli.drive_questions import ask_for_drive, drive_options
+from wearsim.cli.init_questions import ask_for_drive, drive_options
 from wearsim.command.options import common_options
 from wearsim.drive.known_drive import KNOWN
 from wearsim.errors import CaseError, Fault

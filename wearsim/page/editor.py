@@ -15,7 +15,7 @@ from wearsim.page.case_answer import CaseAnswer
 from wearsim.page.case_file import CaseFile
 from wearsim.page.chart_colours import palettes
 from wearsim.page.chart_view import style
-from wearsim.page.comparison import Comparison
+from wearsim.page.comparison_panel import Comparison
 from wearsim.page.drive_answer import DriveAnswer
 from wearsim.page.edit_history import EditHistory
 from wearsim.page.edited_input import EditedInput, StaleError

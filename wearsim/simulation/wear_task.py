@@ -27,7 +27,7 @@ from wearsim.wear.law import (
 )
 from wearsim.wear.mate_clock import LubricatedClock
 from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
-from wearsim.wear.severity import on_level_branch, t_gamma_energy
+from wearsim.wear.severe_wear import on_level_branch, t_gamma_energy
 from wearsim.wear.trajectory import Trajectory
 from wearsim.wear.wear_clock import WearClock
 

@@ -11,7 +11,14 @@ from scipy.special import stdtrit
 from wearsim.geometry.profile_points import Vector
 from wearsim.study.judge.laws import LawParameter, WearLaw, laws_for, ln_shape
 from wearsim.study.judge.sampler import draws
-from wearsim.study.judge.scatter import Forecasts, Scatter, drawn_again, forecasts, log_scores, quantiles
+from wearsim.study.judge.series_scatter import (
+    Forecasts,
+    Scatter,
+    drawn_again,
+    forecasts,
+    log_scores,
+    quantiles,
+)
 from wearsim.study.judge.wear_series import WearSeries
 
 PARTICLES = 1000

@@ -11,7 +11,7 @@ from wearsim.drive.load_case import load_drive
 from wearsim.errors import CaseError, Range, check_ranges
 from wearsim.quantities import grouped
 from wearsim.report.public_answer import Answer, table_of
-from wearsim.study.select.case_file import case_tables
+from wearsim.study.select.selected_case import case_tables
 from wearsim.study.select.sheet import SelectionAnswer, answer_to, selection_json, selection_text
 from wearsim.study.select.wish import Wish, read_wish
 

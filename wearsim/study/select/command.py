@@ -220,7 +220,7 @@ def _verified(answer: "SelectionAnswer", wish: "Wish", count: int) -> list[dict[
     """Return the lives of all parts of the first drives."""
     if not count:
         return []
-    from wearsim.study.select.case_file import case_tables
+    from wearsim.study.select.selected_case import case_tables
     from wearsim.study.select.verified_lives import part_lives
 
     found = []
@@ -247,7 +247,7 @@ def _write(
 ) -> None:
     """Write the case of the best drive and the table."""
     if out is not None:
-        from wearsim.study.select.case_file import case_tables, case_text
+        from wearsim.study.select.selected_case import case_tables, case_text
 
         tables = case_tables(answer.shown[0], wish.need, wish.hours_per_day)
         command = shlex.join(["wearsim", *sys.argv[1:]]).replace("\n", " ")
