@@ -17,10 +17,10 @@ _GAP, _COSINE, _SINE, _WEAR, _MOBILITY, _FORCE, _DEFORMED, _STEP, _RESPONSE, _PR
 _TRIAL, _TRIAL_DEFORMED, _COMPLIANCE, _RECESS, WORK_ROWS = range(10, 15)
 """Rows of the table to work in, and their number."""
 
-_CENTRE_X, _CENTRE_Y, _RADIUS, _ALONG_X, _ALONG_Y, _LOAD, _TOLERANCE, _MOST_ITERATIONS = range(8)
+CENTRE_X, CENTRE_Y, RADIUS, ALONG_X, ALONG_Y, LOAD, TOLERANCE, MOST_ITERATIONS = range(8)
 """Places of what is constant: the roller, the direction in which it is pressed, and when to end."""
 
-_APPROACH, _ERROR, _BALANCE, _CHANGED, _FIRST, _LAST, _ITERATIONS = range(7)
+APPROACH, _ERROR, _BALANCE, _CHANGED, FIRST, LAST, _ITERATIONS = range(7)
 """Places of the result; the first four are the state of the solver."""
 
 SMALLEST_COSINE = 0.2
@@ -65,10 +65,10 @@ def roller_gap(
     A cell steeper than ``SMALLEST_COSINE`` is out of reach: cosine zero, endless gap. Returns
     the approach gap/cosine at which the first cell touches, endless where none can.
     """
-    radius, along_x, along_y = constants[_RADIUS], constants[_ALONG_X], constants[_ALONG_Y]
+    radius, along_x, along_y = constants[RADIUS], constants[ALONG_X], constants[ALONG_Y]
     level = _ENDLESS
     for j in range(x.size):
-        to_x, to_y = constants[_CENTRE_X] - x[j], constants[_CENTRE_Y] - y[j]
+        to_x, to_y = constants[CENTRE_X] - x[j], constants[CENTRE_Y] - y[j]
         distance = math.sqrt(to_x * to_x + to_y * to_y)
         gap[j], cosine[j], sine[j] = _ENDLESS, 0.0, 0.0
         if to_x * along_x + to_y * along_y > SMALLEST_COSINE * distance:
@@ -187,7 +187,7 @@ def imbalance(
         largest = max(largest, force[j])
         step = max(step, abs(left) * mobility[j] * now)
         balance += left * left * mobility[j] * now
-    state[_APPROACH], state[_ERROR], state[_BALANCE], state[_CHANGED] = (
+    state[APPROACH], state[_ERROR], state[_BALANCE], state[_CHANGED] = (
         approach,
         step / largest,
         balance,
@@ -283,7 +283,7 @@ def balance_forces(
     )
     step, response, pressed = work[_STEP][first:last], work[_RESPONSE][first:last], work[_PRESSED][first:last]
     trial, trial_deformed = work[_TRIAL][first:last], work[_TRIAL_DEFORMED][first:last]
-    load, tolerance, limit = constants[_LOAD], constants[_TOLERANCE], int(constants[_MOST_ITERATIONS])
+    load, tolerance, limit = constants[LOAD], constants[TOLERANCE], int(constants[MOST_ITERATIONS])
     n, before, restart = last - first, 0.0, True
     displacement(force, cosine, sine, wear, coefficients, deformed)
     for j in range(n):
@@ -297,12 +297,12 @@ def balance_forces(
         keep = 0.0 if restart or state[_CHANGED] > 0.0 else state[_BALANCE] / before
         before = state[_BALANCE]
         for j in range(n):
-            left = deformed[j] - state[_APPROACH] * cosine[j]
+            left = deformed[j] - state[APPROACH] * cosine[j]
             step[j] = (keep * step[j] - mobility[j] * left) * pressed[j]
         displacement(step, cosine, sine, wear, coefficients, response)
         downhill, stiffness, reach = 0.0, 0.0, _ENDLESS
         for j in range(n):
-            downhill -= step[j] * (deformed[j] - state[_APPROACH] * cosine[j])
+            downhill -= step[j] * (deformed[j] - state[APPROACH] * cosine[j])
             stiffness += step[j] * response[j]
             if step[j] < 0.0:
                 reach = min(reach, -force[j] / step[j])
@@ -369,7 +369,7 @@ def line_contact(
 
     Equation physics.md (W10), of m = 1.
     """
-    n, load = x.size, constants[_LOAD]
+    n, load = x.size, constants[LOAD]
     gap, cosine, sine, wear = work[_GAP][0:n], work[_COSINE][0:n], work[_SINE][0:n], work[_WEAR][0:n]
     mobility, force = work[_MOBILITY][0:n], work[_FORCE][0:n]
     faults = 0 if load >= 0.0 else 1
@@ -388,19 +388,19 @@ def line_contact(
         return INVALID
     level = roller_gap(x, y, recess, constants, gap, cosine, sine)
     if level == _ENDLESS or load == 0.0:
-        result[_APPROACH] = level
+        result[APPROACH] = level
         return OUT_OF_REACH if level == _ENDLESS else CONVERGED
     local = local_compliance(coefficients)
     for j in range(n):
         wear[j] = wear_compliance[j] / width[j]
         mobility[j] = 1.0 / (wear[j] + local)
-    first_force(work[_TRIAL], width, coefficients, level, load, work, result[_FIRST:_ITERATIONS])
-    first, last = int(result[_FIRST]), int(result[_LAST])
-    result[_ITERATIONS] = balance_forces(coefficients, constants, work, first, last, result[:_FIRST])
+    first_force(work[_TRIAL], width, coefficients, level, load, work, result[FIRST:_ITERATIONS])
+    first, last = int(result[FIRST]), int(result[LAST])
+    result[_ITERATIONS] = balance_forces(coefficients, constants, work, first, last, result[:FIRST])
     scale_to_load(force, cosine, load)
     for j in range(n):
         pressure[j] = force[j] / width[j]
-    return CONVERGED if result[_ERROR] <= constants[_TOLERANCE] else NOT_CONVERGED
+    return CONVERGED if result[_ERROR] <= constants[TOLERANCE] else NOT_CONVERGED
 
 
 @kernel(int64(VECTOR, VECTOR, VECTOR, VECTOR, float64, VECTOR, VECTOR, VECTOR, TABLE, VECTOR))
@@ -426,7 +426,7 @@ def power_contact(
 
     Equation physics.md (W10).
     """
-    n, load = x.size, constants[_LOAD]
+    n, load = x.size, constants[LOAD]
     compliance, recess = work[_COMPLIANCE][0:n], work[_RECESS][0:n]
     iterations, floor, status = 0.0, 0.0, INVALID
     for turn in range(40):
@@ -458,7 +458,7 @@ def power_contact(
                 tangent = recess[j] + compliance[j] * pressure[j]
                 misfit = max(misfit, (worn - tangent) * work[_MOBILITY][j])
                 largest = max(largest, pressure[j] * width[j])
-        if status == CONVERGED and not misfit > constants[_TOLERANCE] * largest:
+        if status == CONVERGED and not misfit > constants[TOLERANCE] * largest:
             break
         status, floor = NOT_CONVERGED, 0.1 * floor
     result[_ITERATIONS] = iterations

@@ -34,6 +34,9 @@ if TYPE_CHECKING:
 ARC, LOAD, SLIP, SPEED, CURVATURE, NORMAL_X, NORMAL_Y = range(7)
 """Rows of the columns of a flank in offset form."""
 
+MATE_CURVATURE = 0
+"""Place of the only constant of such a flank: one over the radius of the mate."""
+
 OFFSET_ROWS = 16
 """Of the table to work in; those of ``run_cycles`` and the weights of the second difference and
 what does not change of a step."""
@@ -57,7 +60,7 @@ def prepare_offset(
     for j in range(n):
         work[START, j] = depth[j]
         work[WORK_NORMAL_X, j], work[WORK_NORMAL_Y, j] = columns[NORMAL_X, j], columns[NORMAL_Y, j]
-        work[BASE, j] = constants[0] + columns[CURVATURE, j]
+        work[BASE, j] = constants[MATE_CURVATURE] + columns[CURVATURE, j]
         work[STRESS, j] = columns[LOAD, j] * (modulus / math.pi)
         before = arc[max(j, 1)] - arc[max(j, 1) - 1]
         after = arc[min(j, n - 2) + 1] - arc[min(j, n - 2)]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.flank_geometry import add_second_difference
+from wearsim.kernels.offset import ARC, CURVATURE, LOAD, MATE_CURVATURE, NORMAL_X, NORMAL_Y, SLIP, SPEED
 from wearsim.kernels.signatures import CONTACT
 
 if TYPE_CHECKING:
@@ -33,17 +34,16 @@ def prescribed_contact(
     the depth over the given arc length; the two end rows keep the given curvature. The
     direction a point recedes in is its initial normal.
 
-    ``constants``: one over the roller radius. ``columns``: arc length, load, slip,
-    speed, flank curvature, normal_x, normal_y.
+    ``constants`` and ``columns``: as of the loop in offset form.
 
     Equation physics.md (A1).
     """
-    flank_curvature = columns[4]
+    flank_curvature = columns[CURVATURE]
     n = depth.size
     for j in range(n):
-        load[j], slip[j], speed[j] = columns[1, j], columns[2, j], columns[3, j]
+        load[j], slip[j], speed[j] = columns[LOAD, j], columns[SLIP, j], columns[SPEED, j]
     for j in range(n):
-        normal_x[j], normal_y[j] = columns[5, j], columns[6, j]
+        normal_x[j], normal_y[j] = columns[NORMAL_X, j], columns[NORMAL_Y, j]
     for j in range(n):
-        relative[j] = constants[0] + flank_curvature[j]
-    add_second_difference(columns[0], depth, relative)
+        relative[j] = constants[MATE_CURVATURE] + flank_curvature[j]
+    add_second_difference(columns[ARC], depth, relative)

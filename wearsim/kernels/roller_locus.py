@@ -11,6 +11,9 @@ from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 if TYPE_CHECKING:
     from wearsim.kernels.signatures import Vector
 
+LOCUS_X, LOCUS_Y, LOCUS_NORMAL_X, LOCUS_NORMAL_Y = range(4)
+"""Rows of a locus, and of a ray: a place, and the unit normal out of the outline there."""
+
 _INSIDE = 1.0 - 1e-12
 """Part of its radius squared within which a point is inside a roller, not on it."""
 
@@ -21,10 +24,10 @@ def distance_to(x: Vector, y: Vector, point: int, ray: Vector, radius: float) ->
 
     ``ray``: x, y and the unit direction that it goes against.
     """
-    ax, ay = ray[0] - x[point], ray[1] - y[point]
-    across = ax * ray[3] - ay * ray[2]
+    ax, ay = ray[LOCUS_X] - x[point], ray[LOCUS_Y] - y[point]
+    across = ax * ray[LOCUS_NORMAL_Y] - ay * ray[LOCUS_NORMAL_X]
     rest = radius * radius - across * across
-    along, half = ax * ray[2] + ay * ray[3], math.sqrt(max(rest, 0.0))
+    along, half = ax * ray[LOCUS_NORMAL_X] + ay * ray[LOCUS_NORMAL_Y], math.sqrt(max(rest, 0.0))
     return along - half if rest > 0.0 and along + half > 1e-9 * radius else math.inf
 
 
@@ -32,7 +35,7 @@ def distance_to(x: Vector, y: Vector, point: int, ray: Vector, radius: float) ->
 def first_met(x: Vector, y: Vector, ray: Vector, radius: float, reach: Vector) -> int:
     """Return the point whose circle a ray meets first, by trying all; ``reach`` takes the ways."""
     points = x.size
-    bx, by, nx, ny = ray[0], ray[1], ray[2], ray[3]
+    bx, by, nx, ny = ray[LOCUS_X], ray[LOCUS_Y], ray[LOCUS_NORMAL_X], ray[LOCUS_NORMAL_Y]
     for j in range(points):
         ax, ay = bx - x[j], by - y[j]
         across = ax * ny - ay * nx
@@ -63,7 +66,7 @@ def met_near(x: Vector, y: Vector, point: int, ray: Vector, radius: float) -> in
     if not 0.0 <= least < math.inf:
         return -1
     within, inside = _INSIDE * radius * radius, 0
-    bx, by, nx, ny = ray[0], ray[1], ray[2], ray[3]
+    bx, by, nx, ny = ray[LOCUS_X], ray[LOCUS_Y], ray[LOCUS_NORMAL_X], ray[LOCUS_NORMAL_Y]
     for j in range(points):
         ax, ay = bx - x[j], by - y[j]
         across, along = ax * ny - ay * nx, ax * nx + ay * ny
@@ -114,8 +117,8 @@ def roller_locus(
         a, b, c = 0.5 * place * (place - 1.0), 1.0 - place * place, 0.5 * place * (place + 1.0)
         kx = a * x[middle - 1] + b * x[middle] + c * x[middle + 1]
         ky = a * y[middle - 1] + b * y[middle] + c * y[middle + 1]
-        cx, cy = ray[0] - least * ray[2], ray[1] - least * ray[3]
+        cx, cy = ray[LOCUS_X] - least * ray[LOCUS_NORMAL_X], ray[LOCUS_Y] - least * ray[LOCUS_NORMAL_Y]
         length = math.sqrt((cx - kx) * (cx - kx) + (cy - ky) * (cy - ky))
-        locus[0, k], locus[1, k] = cx, cy
-        locus[2, k], locus[3, k] = (cx - kx) / length, (cy - ky) / length
+        locus[LOCUS_X, k], locus[LOCUS_Y, k] = cx, cy
+        locus[LOCUS_NORMAL_X, k], locus[LOCUS_NORMAL_Y, k] = (cx - kx) / length, (cy - ky) / length
         touched[k] = middle + place

@@ -11,6 +11,10 @@ from wearsim.kernels.signatures import CONTACT
 if TYPE_CHECKING:
     from wearsim.kernels.signatures import Vector
 
+HEIGHT, RADIUS, PULL, LOAD_END, LOAD_START, PER_OVERLAP, SLIP_FRACTION, ANGULAR_SPEED = range(8)
+"""Places of the constants: height of the strand's line, radius of the roller, pull per face width, end and
+start of the load along the strand, 1/overlap, slip fraction, angular speed."""
+
 
 @kernel(CONTACT)
 def strand_contact(
@@ -35,19 +39,11 @@ def strand_contact(
     the cosine in ``relative`` until both are replaced at the end). A point that the line does not
     reach, or outside the stretch that carries load, has load zero.
 
-    ``constants``: line height, roller radius, pull per face width, end and start of the
-    load along the strand, 1/overlap, slip fraction, angular speed.
-
     Equations physics.md (S8) to (S11).
     """
-    height, radius, pull, x_min, x_max = (
-        constants[0],
-        constants[1],
-        constants[2],
-        constants[3],
-        constants[4],
-    )
-    per_overlap, fraction, omega = constants[5], constants[6], constants[7]
+    height, radius, pull = constants[HEIGHT], constants[RADIUS], constants[PULL]
+    x_min, x_max = constants[LOAD_END], constants[LOAD_START]
+    per_overlap, fraction, omega = constants[PER_OVERLAP], constants[SLIP_FRACTION], constants[ANGULAR_SPEED]
     n = x.size
     for j in range(n):
         cx, cy = x[j] + radius * normal_x[j], y[j] + radius * normal_y[j]

@@ -10,6 +10,10 @@ from wearsim.kernels.signatures import TABLE, VECTOR, float64, void
 if TYPE_CHECKING:
     from wearsim.kernels.signatures import Vector
 
+BEFORE, ON, AFTER, ENDS = range(4)
+"""Rows of a system: entries before, on and after the diagonal; of its factors also the multipliers of the two
+end rows."""
+
 
 @kernel(void(TABLE, float64, TABLE))
 def factorise(rows: Vector, scale: float, factors: Vector) -> None:
@@ -25,42 +29,42 @@ def factorise(rows: Vector, scale: float, factors: Vector) -> None:
     n = rows.shape[1]
     middle = n // 2
     for j in range(n):
-        factors[0, j] = -scale * rows[0, j]
-        factors[1, j] = 1.0 - scale * rows[1, j]
-        factors[2, j] = -scale * rows[2, j]
-    first = factors[0, 0] / factors[2, 1] if factors[0, 0] != 0.0 else 0.0
-    last = factors[2, n - 1] / factors[0, n - 2] if factors[2, n - 1] != 0.0 else 0.0
-    top, bottom = factors[1, 1], factors[1, n - 2]
-    factors[1, 0] -= first * factors[0, 1]
-    factors[2, 0] -= first * top
-    factors[1, n - 1] -= last * factors[2, n - 2]
-    factors[0, n - 1] -= last * bottom
-    factors[1, 0] = 1.0 / factors[1, 0]
-    factors[1, n - 1] = 1.0 / factors[1, n - 1]
-    down, up = factors[1, 0], factors[1, n - 1]
+        factors[BEFORE, j] = -scale * rows[BEFORE, j]
+        factors[ON, j] = 1.0 - scale * rows[ON, j]
+        factors[AFTER, j] = -scale * rows[AFTER, j]
+    first = factors[BEFORE, 0] / factors[AFTER, 1] if factors[BEFORE, 0] != 0.0 else 0.0
+    last = factors[AFTER, n - 1] / factors[BEFORE, n - 2] if factors[AFTER, n - 1] != 0.0 else 0.0
+    top, bottom = factors[ON, 1], factors[ON, n - 2]
+    factors[ON, 0] -= first * factors[BEFORE, 1]
+    factors[AFTER, 0] -= first * top
+    factors[ON, n - 1] -= last * factors[AFTER, n - 2]
+    factors[BEFORE, n - 1] -= last * bottom
+    factors[ON, 0] = 1.0 / factors[ON, 0]
+    factors[ON, n - 1] = 1.0 / factors[ON, n - 1]
+    down, up = factors[ON, 0], factors[ON, n - 1]
     for i in range(1, n - 1 - middle):
         k = n - 1 - i
-        factors[0, i] *= down
-        factors[2, k] *= up
-        down = 1.0 / (factors[1, i] - factors[0, i] * factors[2, i - 1])
-        up = 1.0 / (factors[1, k] - factors[2, k] * factors[0, k + 1])
-        factors[1, i], factors[1, k] = down, up
+        factors[BEFORE, i] *= down
+        factors[AFTER, k] *= up
+        down = 1.0 / (factors[ON, i] - factors[BEFORE, i] * factors[AFTER, i - 1])
+        up = 1.0 / (factors[ON, k] - factors[AFTER, k] * factors[BEFORE, k + 1])
+        factors[ON, i], factors[ON, k] = down, up
     for i in range(n - 1 - middle, middle):
-        factors[0, i] *= down
-        down = 1.0 / (factors[1, i] - factors[0, i] * factors[2, i - 1])
-        factors[1, i] = down
-    factors[0, middle] *= factors[1, middle - 1]
-    factors[2, middle] *= factors[1, middle + 1]
-    factors[1, middle] = 1.0 / (
-        factors[1, middle]
-        - factors[0, middle] * factors[2, middle - 1]
-        - factors[2, middle] * factors[0, middle + 1]
+        factors[BEFORE, i] *= down
+        down = 1.0 / (factors[ON, i] - factors[BEFORE, i] * factors[AFTER, i - 1])
+        factors[ON, i] = down
+    factors[BEFORE, middle] *= factors[ON, middle - 1]
+    factors[AFTER, middle] *= factors[ON, middle + 1]
+    factors[ON, middle] = 1.0 / (
+        factors[ON, middle]
+        - factors[BEFORE, middle] * factors[AFTER, middle - 1]
+        - factors[AFTER, middle] * factors[BEFORE, middle + 1]
     )
     for j in range(middle):
-        factors[2, j] *= factors[1, j]
+        factors[AFTER, j] *= factors[ON, j]
     for j in range(middle + 1, n):
-        factors[0, j] *= factors[1, j]
-    factors[3, 0], factors[3, n - 1] = first, last
+        factors[BEFORE, j] *= factors[ON, j]
+    factors[ENDS, 0], factors[ENDS, n - 1] = first, last
 
 
 @kernel(void(TABLE, VECTOR))
@@ -68,9 +72,9 @@ def solve(factors: Vector, right: Vector) -> None:
     """Replace the right side by the solution."""
     n = right.size
     middle = n // 2
-    before, inverse, after = factors[0], factors[1], factors[2]
-    down = right[0] - factors[3, 0] * right[1]
-    up = right[n - 1] - factors[3, n - 1] * right[n - 2]
+    before, inverse, after = factors[BEFORE], factors[ON], factors[AFTER]
+    down = right[0] - factors[ENDS, 0] * right[1]
+    up = right[n - 1] - factors[ENDS, n - 1] * right[n - 2]
     right[0], right[n - 1] = down, up
     for i in range(1, n - 1 - middle):
         k = n - 1 - i

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
+from wearsim.kernels.roller_locus import LOCUS_NORMAL_X, LOCUS_NORMAL_Y, LOCUS_X, LOCUS_Y
 from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
@@ -72,10 +73,10 @@ def place_rollers(
         table = locus if (i + first) % 2 == 0 else other
         k = min(max(int(position[i]), 0), last - 1)
         t = position[i] - k
-        x0, y0, x1, y1 = table[0, k], table[1, k], table[0, k + 1], table[1, k + 1]
+        x0, y0, x1, y1 = table[LOCUS_X, k], table[LOCUS_Y, k], table[LOCUS_X, k + 1], table[LOCUS_Y, k + 1]
         chord = math.sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
-        ax, ay = -table[3, k] * chord, table[2, k] * chord
-        bx, by = -table[3, k + 1] * chord, table[2, k + 1] * chord
+        ax, ay = -table[LOCUS_NORMAL_Y, k] * chord, table[LOCUS_NORMAL_X, k] * chord
+        bx, by = -table[LOCUS_NORMAL_Y, k + 1] * chord, table[LOCUS_NORMAL_X, k + 1] * chord
         h1, h2, h3 = t * (t * (t - 2.0) + 1.0), t * t * (3.0 - 2.0 * t), t * t * (t - 1.0)
         d1, d2, d3 = t * (3.0 * t - 4.0) + 1.0, 6.0 * t * (1.0 - t), t * (3.0 * t - 2.0)
         c1, c2, c3 = 6.0 * t - 4.0, 6.0 - 12.0 * t, 6.0 * t - 2.0
@@ -303,11 +304,11 @@ def nearest_node(locus: Vector, x: float, y: float, allowed: float) -> float:
     """Return the node of a locus nearest to a roller behind it by more than allowed, else -1."""
     nearest, which = math.inf, 0
     for k in range(locus.shape[1]):
-        dx, dy = x - locus[0, k], y - locus[1, k]
+        dx, dy = x - locus[LOCUS_X, k], y - locus[LOCUS_Y, k]
         if dx * dx + dy * dy < nearest:
             nearest, which = dx * dx + dy * dy, k
-    dx, dy = x - locus[0, which], y - locus[1, which]
-    behind = -(dx * locus[2, which] + dy * locus[3, which])
+    dx, dy = x - locus[LOCUS_X, which], y - locus[LOCUS_Y, which]
+    behind = -(dx * locus[LOCUS_NORMAL_X, which] + dy * locus[LOCUS_NORMAL_Y, which])
     return float(which) if behind > allowed else -1.0
 
 

@@ -41,6 +41,12 @@ SEAT_WORK_ROWS = 27
 _FORCE, _ACROSS, _UP = 0, 1, 2
 CELL_ROWS = 3
 
+# what a foundation answers: force per width, stiffness, energy, width that presses
+_PUSH_X, _PUSH_Y, _STIFF_XX, _STIFF_XY, _STIFF_YY, _STORED, _PRESSING = range(7)
+
+# cells that a roller may press: the first, the one after the last, the nearest
+_FIRST_SEEN, _PAST_SEEN, _NEAREST_SEEN = range(3)
+
 _MARGIN = 0.002
 """Distance within which cells are looked at, in radii of the roller; the first longest step too."""
 
@@ -82,7 +88,8 @@ def near_cells(
         distance = dx * dx + dy * dy
         if distance < best:
             best, k = distance, j
-    found[0], found[1], found[2] = first, last if last > first else low, k
+    found[_FIRST_SEEN], found[_PAST_SEEN] = first, last if last > first else low
+    found[_NEAREST_SEEN] = k
 
 
 @kernel(
@@ -155,7 +162,9 @@ def foundation_force(
             yy += stiffness * ny * ny - turning * nx * nx
             stored += 0.5 * force * force / stiffness
             pressed += width[j]
-    out[0], out[1], out[2], out[3], out[4], out[5], out[6] = fx, fy, xx, xy, yy, stored, pressed
+    out[_PUSH_X], out[_PUSH_Y] = fx, fy
+    out[_STIFF_XX], out[_STIFF_XY], out[_STIFF_YY] = xx, xy, yy
+    out[_STORED], out[_PRESSING] = stored, pressed
 
 
 @kernel(
@@ -228,17 +237,17 @@ def wrap_balance(
             cells,
             out,
         )
-        work[_LOAD_X, i], work[_LOAD_Y, i] = out[0], out[1]
+        work[_LOAD_X, i], work[_LOAD_Y, i] = out[_PUSH_X], out[_PUSH_Y]
         drag_x, drag_y = seats[DRAG_X, event + i], seats[DRAG_Y, event + i]
-        work[_RIGHT_X, i] = face_width * out[0] + drag_x
-        work[_RIGHT_Y, i] = face_width * out[1] + drag_y
+        work[_RIGHT_X, i] = face_width * out[_PUSH_X] + drag_x
+        work[_RIGHT_Y, i] = face_width * out[_PUSH_Y] + drag_y
         work[_XX, i], work[_XY, i], work[_YY, i] = (
-            face_width * out[2],
-            face_width * out[3],
-            face_width * out[4],
+            face_width * out[_STIFF_XX],
+            face_width * out[_STIFF_XY],
+            face_width * out[_STIFF_YY],
         )
-        work[_PRESSED, i] = out[6]
-        energy += face_width * out[5]
+        work[_PRESSED, i] = out[_PRESSING]
+        energy += face_width * out[_STORED]
         energy -= drag_x * (work[_TRIAL_X, i] - work[_FROM_X, i]) + drag_y * (
             work[_TRIAL_Y, i] - work[_FROM_Y, i]
         )
@@ -356,7 +365,7 @@ def look_around(
         cells[_FORCE],
         found,
     )
-    seats[NEAREST, event + i] = found[2]
+    seats[NEAREST, event + i] = found[_NEAREST_SEEN]
     work[_SEEN_X, i], work[_SEEN_Y, i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
 
 
@@ -418,10 +427,10 @@ def balance_rollers(
         work[_TRIAL_X, i], work[_TRIAL_Y, i] = seats[SEAT_X, event + i], seats[SEAT_Y, event + i]
         work[_FROM_X, i], work[_FROM_Y, i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
         look_around(event, i, (i + kind) % bodies, x, y, recess, reach, radius, seats, work, cells)
-        work[_LOW, i], work[_HIGH, i] = found[0], found[1]
+        work[_LOW, i], work[_HIGH, i] = found[_FIRST_SEEN], found[_PAST_SEEN]
         if holds == 1 and seats[LAST, event + i] > seats[FIRST, event + i]:
-            work[_LOW, i] = min(found[0], seats[FIRST, event + i])
-            work[_HIGH, i] = max(found[1], seats[LAST, event + i])
+            work[_LOW, i] = min(found[_FIRST_SEEN], seats[FIRST, event + i])
+            work[_HIGH, i] = max(found[_PAST_SEEN], seats[LAST, event + i])
     if holds == 1:
         wrap_balance(
             event,
@@ -448,7 +457,7 @@ def balance_rollers(
                 work[_TRIAL_X, i] += work[_STEP_X, i]
                 work[_TRIAL_Y, i] += work[_STEP_Y, i]
                 look_around(event, i, (i + kind) % bodies, x, y, recess, reach, radius, seats, work, cells)
-                work[_LOW, i], work[_HIGH, i] = found[0], found[1]
+                work[_LOW, i], work[_HIGH, i] = found[_FIRST_SEEN], found[_PAST_SEEN]
     for i in range(rollers):
         seats[SEAT_X, event + i], seats[SEAT_Y, event + i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
     energy = wrap_balance(
@@ -498,9 +507,9 @@ def balance_rollers(
             if away_x * away_x + away_y * away_y > _MARGIN * _MARGIN * radius * radius:
                 low, high = work[_LOW, i], work[_HIGH, i]
                 look_around(event, i, body, x, y, recess, reach, radius, seats, work, cells)
-                if found[1] > found[0]:
-                    work[_LOW, i] = min(low, found[0]) if high > low else found[0]
-                    work[_HIGH, i] = max(high, found[1]) if high > low else found[1]
+                if found[_PAST_SEEN] > found[_FIRST_SEEN]:
+                    work[_LOW, i] = min(low, found[_FIRST_SEEN]) if high > low else found[_FIRST_SEEN]
+                    work[_HIGH, i] = max(high, found[_PAST_SEEN]) if high > low else found[_PAST_SEEN]
         after = wrap_balance(
             event,
             rollers,

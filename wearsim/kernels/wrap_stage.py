@@ -67,6 +67,9 @@ STAGE_NUMBERS = 15
 OUTLINE_X, OUTLINE_Y, OUTLINE_WIDTH, OUTLINE_DEPTH, OUTLINE_AREA, YIELD, REST = range(7)
 OUTLINES = 7
 
+PHASE, PHASE_SHARE = range(2)
+"""Rows of the phases of a pitch: how much of one is gone, and the part of the pitch that it stands for."""
+
 _WINKLER = 8.0 / (3.0 * math.pi)
 """Compliance of every cell times modulus over half-width with which a Hertz contact keeps load and width."""
 
@@ -319,7 +322,7 @@ def slips(
     bodies, n = outlines.shape[0] // OUTLINES, outlines.shape[1]
     for kind in range(kinds):
         for step in range(count):
-            rollers = engaged(numbers[WRAP_ANGLE], angle, phases[0, step])
+            rollers = engaged(numbers[WRAP_ANGLE], angle, phases[PHASE, step])
             for i in range(most):
                 here = start + (kind * count + step) * most + i
                 seats[SLIP, here], seats[BEFORE, here], seats[AFTER, here] = 0.0, 0.0, 0.0
@@ -332,7 +335,7 @@ def slips(
                     if place < 0:
                         continue
                     there = start + place
-                    rollers_there = engaged(numbers[WRAP_ANGLE], angle, phases[0, place // most % count])
+                    rollers_there = engaged(numbers[WRAP_ANGLE], angle, phases[PHASE, place // most % count])
                     if place % most < rollers_there and seats[PLACE, there] >= 0.0:
                         dx = seats[SEAT_X, there] - seats[SEAT_X, here]
                         dy = seats[SEAT_Y, there] - seats[SEAT_Y, here]
@@ -357,9 +360,11 @@ def slips(
                 ahead, behind = drift * numbers[AHEAD], drift * numbers[BEHIND]
                 seats[AFTER, here] += max(ahead, 0.0) + max(-behind, 0.0)
                 seats[BEFORE, here] += max(behind, 0.0) + max(-ahead, 0.0)
-                slip = ends * numbers[ARTICULATION_SLIP] * phases[1, step] + numbers[PATH_SLIP] * way
+                slip = (
+                    ends * numbers[ARTICULATION_SLIP] * phases[PHASE_SHARE, step] + numbers[PATH_SLIP] * way
+                )
                 seats[SLIP, here] = slip
-                seats[SPEED, here] = slip / (pitch_time * phases[1, step])
+                seats[SPEED, here] = slip / (pitch_time * phases[PHASE_SHARE, step])
 
 
 @kernel(
@@ -416,10 +421,10 @@ def sweep_phases(
     reach = int(numbers[REACH])
     for kind in range(kinds):
         for step in range(count):
-            rollers = engaged(numbers[WRAP_ANGLE], angle, phases[0, step])
+            rollers = engaged(numbers[WRAP_ANGLE], angle, phases[PHASE, step])
             event = ((block * kinds + kind) * count + step) * most
             end = event + rollers
-            tight_angle = angle * (phases[0, step] - 0.5)
+            tight_angle = angle * (phases[PHASE, step] - 0.5)
             slack_angle = numbers[WRAP_ANGLE] - tight_angle - (rollers - 1) * angle
             yield_of_phase(
                 event, end, kinds, most, blocks, seats, numbers, unworn, pressures, outlines, works, sums

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from wearsim.kernels import half_space
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.event_rows import (
     EVENT_BODY,
@@ -84,11 +85,20 @@ def recede(area: Vector, depth: Vector, x: Vector, y: Vector, unworn: Vector, fi
 @kernel(void(int64, TABLE, VECTOR, VECTOR))
 def place_roller(event: int, events: Vector, numbers: Vector, constants: Vector) -> None:
     """Write what `power_contact` takes of the roller of an event."""
-    constants[0], constants[1] = events[EVENT_CENTRE_X, event], events[EVENT_CENTRE_Y, event]
-    constants[2] = numbers[MATE_RADIUS]
-    constants[3], constants[4] = events[EVENT_NORMAL_X, event], events[EVENT_NORMAL_Y, event]
-    constants[5], constants[6] = events[EVENT_LOAD, event], numbers[TOLERANCE]
-    constants[7] = _MAX_ITERATIONS
+    constants[half_space.CENTRE_X], constants[half_space.CENTRE_Y] = (
+        events[EVENT_CENTRE_X, event],
+        events[EVENT_CENTRE_Y, event],
+    )
+    constants[half_space.RADIUS] = numbers[MATE_RADIUS]
+    constants[half_space.ALONG_X], constants[half_space.ALONG_Y] = (
+        events[EVENT_NORMAL_X, event],
+        events[EVENT_NORMAL_Y, event],
+    )
+    constants[half_space.LOAD], constants[half_space.TOLERANCE] = (
+        events[EVENT_LOAD, event],
+        numbers[TOLERANCE],
+    )
+    constants[half_space.MOST_ITERATIONS] = _MAX_ITERATIONS
 
 
 @kernel(int64(VECTOR, VECTOR, int64, int64, VECTOR, VECTOR))
@@ -98,12 +108,12 @@ def touches_beyond(x: Vector, y: Vector, first: int, last: int, constants: Vecto
     The cells that may press must not reach an end of these, and all others must lie farther
     from the roller than it has come nearer: displacements are positive.
     """
-    if int(result[4]) == 0 or int(result[5]) == last - first:
+    if int(result[half_space.FIRST]) == 0 or int(result[half_space.LAST]) == last - first:
         return 1
-    away = constants[2] + max(result[0], 0.0)
+    away = constants[half_space.RADIUS] + max(result[half_space.APPROACH], 0.0)
     near = 0
     for j in range(x.size):
-        to_x, to_y = constants[0] - x[j], constants[1] - y[j]
+        to_x, to_y = constants[half_space.CENTRE_X] - x[j], constants[half_space.CENTRE_Y] - y[j]
         inside = to_x * to_x + to_y * to_y < away * away
         near += 1 if inside and (j < first or j >= last) else 0
     return 1 if near > 0 else 0
