@@ -1,5 +1,6 @@
 """Every command on every kind of shipped case: an answer, or a reason that is named."""
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -43,11 +44,19 @@ COMMANDS = {
     "remaining --hours 10 --elongation 0.3": (),
     "uncertainty --samples 2 --threads 1": (),
     "sensitivity --dry-run --threads 1": (),
+    "remaining readings.csv": (),
+    "sweep --threads 1": (),
     "optimise --evaluations 10 --threads 1": (),
 }
 
+SPEEDS = {"loop": (2400, 2500)}
+"""Speeds that studies try; 50 and 60 rpm where nothing is said."""
+
+OPTIMISE = "[optimise]\n[optimise.parameters]\n'load.speed_rpm' = {{low = {0}, high = {1}}}\n"
+STUDY = 'format_version = 1\ncase = "{case}"\n[grid]\n"load.speed_rpm" = [{0}, {1}]\n'
+READINGS = "time_hours,quantity,value,error\n10,elongation_percent,0.3,0.05\n"
+
 NO_CHAIN = "needs a chain that wraps the sprocket"
-NOTHING_ASKED = "optimise: this table is required"
 REASONS = {
     **{("loads", kind): NO_CHAIN for kind in ("strand", "gears", "table")},
     **{("maintain", kind): NO_CHAIN for kind in ("strand", "gears", "table")},
@@ -66,7 +75,10 @@ REASONS = {
         ): "is read on the teeth of one sprocket"
         for kind in ("drive", "loop", "cassette")
     },
-    **{("optimise --evaluations 10 --threads 1", kind): NOTHING_ASKED for kind in KINDS},
+    **{
+        ("remaining readings.csv", kind): "readings of a chain need one that wraps the sprocket"
+        for kind in ("strand", "gears", "table")
+    },
 }
 """Why a command has no answer for a kind of case: exit code 2, and these words."""
 
@@ -78,7 +90,15 @@ def test_a_command_answers_or_names_its_reason(cli, tmp_path, monkeypatch, comma
     name, *options = command.split()
     case, settings = KINDS[kind]
     chosen = [word for setting in settings for word in ("--set", setting)]
-    done = cli(name, CASES / case, *options, *COMMANDS[command], *chosen)
+    source, speeds = CASES / case, SPEEDS.get(kind, (50, 60))
+    if name in ("optimise", "sweep"):
+        source = shutil.copytree(CASES, tmp_path / "cases") / case
+        source.write_text(source.read_text("utf-8") + OPTIMISE.format(*speeds), "utf-8")
+    if name == "sweep":
+        (tmp_path / "study.toml").write_text(STUDY.format(*speeds, case=source))
+        source = tmp_path / "study.toml"
+    (tmp_path / "readings.csv").write_text(READINGS)
+    done = cli(name, source, *options, *COMMANDS[command], *chosen)
     reason = REASONS.get((command, kind))
     if reason is None:
         assert done.code == 0, done.err

@@ -542,8 +542,13 @@ def supply_in_words(case: Case) -> tuple[str, str]:
     return supplied, "mud" if soil else lubrication.get("environment", "clean")
 
 
+def instead_of(case: Case) -> str:
+    """Say what to do where a chain must wrap the sprocket, but does not, or that there is no chain."""
+    return "this is a pair of gears" if "gear" in case.inputs else "set kind = 'wrap'"
+
+
 def wrap_drive(case: Case, message: str, key: str = "mechanism.kind", where: str = "") -> WrapDrive:
-    """Return the drive of a case whose chain wraps the sprocket; a fault with this message on others."""
+    """Return the drive of a case whose chain wraps the sprocket; a fault on others, with what to do."""
     if not isinstance(case.drive, WrapDrive):
-        raise CaseError([Fault(message, key, where or case.name)])
+        raise CaseError([Fault(f"{message}: {instead_of(case)}", key, where or case.name)])
     return case.drive

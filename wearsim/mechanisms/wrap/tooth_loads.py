@@ -30,7 +30,7 @@ class ToothLoads:
 
 def tooth_loads(case: Case, elongation: float = 0.0, phase: float | None = 1.0) -> ToothLoads:
     """Return what the teeth of a sprocket carry that a chain wraps."""
-    drive = wrap_drive(case, "'loads' needs a chain that wraps the sprocket: set kind = 'wrap'")
+    drive = wrap_drive(case, "'loads' needs a chain that wraps the sprocket")
     mechanism = drive.rollers
     firsts = (0, 1) if drive.joint.alternating and elongation > 0.0 and phase is None else (0,)
     phases = [phase] if phase is not None else list(np.linspace(0.0, 1.0, drive.phases + 1))

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
+from wearsim.mechanisms.wrap.drive import instead_of
 from wearsim.study.calibrate.calibration import CalibrationOptions
 from wearsim.study.calibrate.parameters import BEYOND, EXPONENT, SHAPES, shape_values
 from wearsim.study.calibrate.predicted_history import PredictedHistory
@@ -55,7 +56,7 @@ def check_of_chain(readings: Sequence[Reading], file: str) -> None:
 def _not_known(case: Case, reading: Reading) -> Iterator[str]:
     wrap, name = case.drive.rests, reading.quantity
     if (reading.of_chain or name in (LENGTH, OVER_PINS)) and not wrap:
-        yield f"{name} needs a chain that wraps the sprocket: set kind = 'wrap'"
+        yield f"{name} needs a chain that wraps the sprocket: {instead_of(case)}"
     if (reading.of_chain or name == OVER_PINS) and reading.gap_kind is not None:
         yield f"gap_kind must be empty for {name}"
     if name == PROFILE and case.inputs["mechanism"]["kind"] == "prescribed":

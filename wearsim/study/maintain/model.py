@@ -116,7 +116,7 @@ def maintain(case: Case, progress: Progress = lambda done, of, what: None) -> Ma
     the elongation; a turned sprocket is a second run on the mirrored outline from the depth
     and the chain at the end of the first.
     """
-    drive = wrap_drive(case, "'maintain' needs a chain that wraps the sprocket: set kind = 'wrap'")
+    drive = wrap_drive(case, "'maintain' needs a chain that wraps the sprocket")
     check_steady_lubricant(case, "maintain", "see what relubrication does with wearsim lubricate")
     check_no_running_in(case, "maintain")
     table = MaintenanceTable(**case.inputs.get("maintenance", {}))

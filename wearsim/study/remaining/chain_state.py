@@ -11,6 +11,7 @@ from wearsim.case.model import Case, WearBand
 from wearsim.drive.drive_case import DriveCase, chain_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
+from wearsim.mechanisms.wrap.drive import instead_of
 from wearsim.simulation.wrap_life import chain_clock, wrap_of
 from wearsim.study.remaining.chain_readings import NO_GO, ChainLog, ChainReading, read_chain_log
 from wearsim.study.remaining.contradictions import (
@@ -86,7 +87,7 @@ def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -
     """
     first = chain_case(case)
     if not first.drive.wear_coefficients:
-        text = "readings of a chain need one that wraps the sprocket: set kind = 'wrap'"
+        text = f"readings of a chain need one that wraps the sprocket: {instead_of(first)}"
         raise CaseError([Fault(text, "mechanism.kind", first.name)])
     drive = wrap_of(first)
     limit = 100.0 * drive.joint.elongation_limit

@@ -9,6 +9,7 @@ from wearsim.case.model import Case, WearBand
 from wearsim.drive.drive_case import DriveCase, chain_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
+from wearsim.mechanisms.wrap.drive import instead_of
 from wearsim.result import Life, LowerBound
 from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant
 from wearsim.simulation import simulate
@@ -168,7 +169,7 @@ def _fault(reading: SingleReading, message: str) -> CaseError:
 def _chain(case: Case, reading: SingleReading) -> _PartHistory:
     """Elongation of a chain: linear in cycles of constant coefficient, so that no run is needed."""
     if not case.drive.wear_coefficients:
-        raise _fault(reading, "needs a chain that wraps the sprocket: set kind = 'wrap'")
+        raise _fault(reading, f"needs a chain that wraps the sprocket: {instead_of(case)}")
     drive = wrap_of(case)
     contact = drive.contact(case)
     [cycles] = chain_clock(case).running_cycles(np.array([contact.cycles_per_mate])).tolist()
@@ -189,7 +190,7 @@ def _teeth(case: Case, reading: SingleReading, progress: Callable[[float], None]
     result = simulate(case, progress)
     columns = result.history_columns
     if reading.quantity not in columns:
-        raise _fault(reading, "needs a sprocket with gaps: set kind = 'wrap'")
+        raise _fault(reading, f"needs a sprocket with gaps: {instead_of(case)}")
     values = columns[reading.quantity]
     if reading.quantity == OVER_PINS:
         ambiguous = ambiguous_reading(values, reading.error)
