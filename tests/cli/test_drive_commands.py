@@ -323,7 +323,7 @@ def test_readings_of_teeth_ask_for_the_case_of_one_sprocket(cli, drive, tmp_path
     log.write_text("time_hours,quantity,value,error\n100,max_depth_mm,0.1,0.01\n")
     depth = cli("remaining", drive, "--hours", "100", "--depth-mm", "0.1")
     assert depth.code == 2
-    assert "is read on the teeth of one sprocket: give the case of that one" in depth.err
+    assert "is read on the teeth of one sprocket: name it, one of " in depth.err
     pytest.importorskip("pandera", reason="pandera is not installed")
     done = cli("calibrate", drive, log)
     assert done.code == 2

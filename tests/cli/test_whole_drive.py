@@ -4,6 +4,7 @@ import json
 import math
 import shutil
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -253,6 +254,38 @@ def test_run_of_a_drive_replaces_itself_only(cli, run_of_two, tmp_path):
     with pytest.raises(wearsim.WearsimError, match="run"):
         result.save(tmp_path / "run", force=True)
     assert (tmp_path / "run" / "parts" / "roll" / "mine.txt").read_text() == "mine"
+
+
+def test_teeth_of_one_sprocket_are_read(cli, run_of_two):
+    """A reading that the drive's own coefficient gives leaves what is left of the life of that sprocket."""
+    folder, result = run_of_two
+    case, roll = folder.parent / "drive.toml", result.results["roll"]
+    hours, depth = (roll.history_columns[name] for name in ("time_hours", "max_depth_mm"))
+    row = int(np.searchsorted(depth, 0.6 * depth[-1]))
+    reading = ("remaining", case, "--hours", hours[row], "--depth-mm", depth[row])
+    done = cli(*reading, "--sprocket", "roll", "--reading-error-mm", 0.0005, "--json")
+    assert done.code == 0, done.err
+    found = json.loads(done.out)
+    assert found["part"] == "sprocket"
+    assert found["remaining_hours"] == pytest.approx(roll.parts["sprocket"].hours - hours[row], rel=1e-9)
+    python = wearsim.remaining(case, hours[row], depth=depth[row], error=0.0005, sprocket="roll")
+    assert python.summary() == found
+    assert python.title.endswith(": roll") and ": roll" in str(python)
+    for options, words in (
+        ((), "on the teeth of one sprocket: name it, one of 'driver', 'roll'"),
+        (("--sprocket", "rol"), "one of 'driver', 'roll' (got 'rol')"),
+    ):
+        refused = cli(*reading, *options)
+        assert refused.code == 2 and words in refused.err
+    chain = cli("remaining", case, "--hours", 10, "--elongation", 0.5, "--sprocket", "roll")
+    assert chain.code == 2 and "which all sprockets share: leave the sprocket out" in chain.err
+    alone = cli("remaining", "08b-19t-wrap", "--hours", 10, "--depth-mm", 0.5, "--sprocket", "roll")
+    assert alone.code == 2 and "the only sprocket of this case: leave its name out" in alone.err
+    (folder.parent / "log.csv").write_text(
+        "time_hours,quantity,value,error\n10,elongation_percent,0.3,0.05\n"
+    )
+    table = cli("remaining", case, folder.parent / "log.csv", "--sprocket", "roll")
+    assert table.code == 2 and "leave out --hours, --sprocket" in table.err
 
 
 def test_torque_is_that_of_the_driver(cli, drive, tmp_path, two_sprockets):

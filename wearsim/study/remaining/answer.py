@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, overload
 
 from wearsim.case.model import Case
 from wearsim.drive.case_input import CaseInput, loaded
-from wearsim.drive.drive_case import chain_case
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.input.readings_file import readings_file
 from wearsim.report.public_answer import Answer, table_of
@@ -22,6 +21,7 @@ from wearsim.study.remaining.model import (
     OVER_PINS,
     RemainingLife,
     SingleReading,
+    read_part,
     remaining_life,
 )
 from wearsim.study.remaining.sheet import remaining_json, remaining_text
@@ -122,6 +122,7 @@ def remaining(
     over_pins: float | None = None,
     elongation_percent: float | None = None,
     error: float | None = None,
+    sprocket: str | None = None,
     progress: Progress = silent,
 ) -> RemainingResult: ...
 
@@ -144,6 +145,7 @@ def remaining(
     elongation_percent: float | None = None,
     readings: "str | PathLike[str] | pd.DataFrame | Sequence[Mapping[str, Any]] | None" = None,
     error: float | None = None,
+    sprocket: str | None = None,
     progress: Progress = silent,
 ) -> RemainingResult | ChainReadingsResult:
     """Return the hours that are left after readings in service.
@@ -155,7 +157,7 @@ def remaining(
     Parameters
     ----------
     case : Case, DriveCase, path or mapping
-        One sprocket or a gear pair, or a whole drive whose chain was read.
+        One sprocket, a gear pair or a whole drive.
     hours : float, optional
         Running hours of the part that was measured, since it was new [h]; of one reading.
     depth : float, optional
@@ -170,6 +172,8 @@ def remaining(
     error : float, optional
         Of the reading, to either side [mm, of an elongation %]; 0.02 mm or 0.05 % without it. Of
         readings that state none the standard deviation [%].
+    sprocket : str, optional
+        Which sprocket of a whole drive was measured, by its name; of depth and over_pins only.
     progress : callable, optional
         Told how much is done, from 0 to 1.
 
@@ -222,6 +226,7 @@ def remaining(
             "depth": depth,
             "over_pins": over_pins,
             "elongation_percent": elongation_percent,
+            "sprocket": sprocket,
         }
         if any(value is not None for value in alone.values()):
             raise TypeError("remaining: readings hold hours and values, must be given without others")
@@ -239,8 +244,8 @@ def remaining(
     ((name, value),) = values
     quantity, usual_error = _READINGS[name]
     reading = SingleReading(quantity, value, usual_error if error is None else error, hours)
-    found = loaded(case)
-    return RemainingResult(chain_case(found), remaining_life(found, reading, progress))
+    part = read_part(loaded(case), reading, sprocket)
+    return RemainingResult(part, remaining_life(part, reading, progress))
 
 
 _ABOVE_0 = Range(above=0.0, optional=True)

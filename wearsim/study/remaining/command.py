@@ -6,7 +6,7 @@ import click
 
 from wearsim.command.answered import Shown, shown_options
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, finite, load_cases, overrides, working
+from wearsim.command.options import common_options, finite, load_cases, overrides, sprocket_option, working
 
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
@@ -62,6 +62,7 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
     help="Error of an elongation, plus or minus; in READINGS, the default standard deviation.",
 )
 @shown_options("tables and a picture")
+@sprocket_option
 @overrides
 @common_options
 def remaining(
@@ -73,23 +74,25 @@ def remaining(
     elongation: float | None,
     reading_error_mm: float,
     reading_error_percent: float,
+    sprocket: str | None,
     shown: Shown,
     settings: tuple[str, ...],
 ) -> None:
     """Print the remaining hours of CASE; readings replace its wear coefficient.
 
-    With one reading: --hours and one of --depth-mm, --over-pins-mm and --elongation. Life times
-    coefficient is constant, so the answer is exact as long as the coefficient stays the same.
+    With one reading: --hours and one of --depth-mm, --over-pins-mm and --elongation; for the teeth of
+    a whole drive also --sprocket. Life times coefficient is constant, so the answer is exact as long
+    as the coefficient stays the same.
 
     With READINGS (.csv), the log of one chain by hours, km or date: chain_length_mm over links,
     elongation_percent, gauge_percent with go or no-go, and relubrications. The answer has intervals of
-    50 and 90 %. For a whole drive, readings are of the chain.
+    50 and 90 %.
     """
     values = (depth_mm, over_pins_mm, elongation)
     given = [value for value in values if value is not None]
     if readings is not None:
-        if given or hours is not None:
-            raise click.UsageError("READINGS hold hours and values: leave out --hours and the like")
+        if given or hours is not None or sprocket is not None:
+            raise click.UsageError("READINGS hold hours and values: leave out --hours, --sprocket and so on")
         shown.check(case, readings)
         (loaded,) = load_cases([case], settings, shown.as_json)
         from wearsim.study.remaining.answer import remaining as left
@@ -116,6 +119,7 @@ def remaining(
             over_pins=over_pins_mm,
             elongation_percent=elongation,
             error=error,
+            sprocket=sprocket,
             progress=progress,
         )
     shown.show(answer, case)

@@ -91,8 +91,26 @@ class _PartHistory:
         return float(steady ** (1.0 / self.exponent))
 
 
+def read_part(case: Case | DriveCase, reading: SingleReading, sprocket: str | None) -> Case:
+    """Return the case of what was read: the chain that all sprockets share, or the sprocket that is named."""
+    if reading.quantity == ELONGATION:
+        if sprocket is not None:
+            raise _fault(reading, "is read of the chain, which all sprockets share: leave the sprocket out")
+        return chain_case(case)
+    if isinstance(case, Case):
+        if sprocket is not None:
+            raise _fault(reading, "is read on the only sprocket of this case: leave its name out")
+        return case
+    cases = case.titled_cases()
+    if sprocket not in cases:
+        got = "" if sprocket is None else f" (got {sprocket!r})"
+        names = ", ".join(map(repr, cases))
+        raise _fault(reading, f"is read on the teeth of one sprocket: name it, one of {names}{got}")
+    return cases[sprocket]
+
+
 def remaining_life(
-    case: Case | DriveCase, reading: SingleReading, progress: Callable[[float], None] = lambda part: None
+    case: Case, reading: SingleReading, progress: Callable[[float], None] = lambda part: None
 ) -> RemainingLife:
     """Return the life that remains after a reading in service.
 
@@ -103,14 +121,6 @@ def remaining_life(
     reading of the sprocket; a reading of the chain gives that of the joints alone. Exact as
     long as the coefficient does not change otherwise.
     """
-    if isinstance(case, DriveCase):
-        if reading.quantity != ELONGATION:
-            text = (
-                "is read on the teeth of one sprocket: give the case of that one, [sprocket] with "
-                "drive.mate_teeth for the other one; of a whole drive give what was read of its chain"
-            )
-            raise _fault(reading, text)
-        case = chain_case(case)
     exponent = case.wear.cycles_exponent
     instead = (
         "give a table of readings, which takes it into account: of the chain to this command, of the teeth "
