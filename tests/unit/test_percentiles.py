@@ -8,7 +8,7 @@ from scipy import stats
 
 from wearsim.case.keys.study_tables import Distribution
 from wearsim.runner.distributions import quantile
-from wearsim.study.uncertainty.model import METHODS, unit_samples
+from wearsim.runner.samples import METHODS, unit_samples
 from wearsim.study.uncertainty.percentiles import fit_distributions, percentile
 
 ALL = np.full(1000, True)

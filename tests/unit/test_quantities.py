@@ -26,6 +26,7 @@ from wearsim.input.log_file import COLUMNS as LOG_COLUMNS
 from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.quantities import Quantity, quantities
+from wearsim.readings.dated_rows import TIMES
 from wearsim.report.comparison import comparison_table
 from wearsim.report.flank_view import profile_table
 from wearsim.report.loads_table import loads_json
@@ -42,7 +43,6 @@ from wearsim.study.judge.sheet import constants_table, forecasts_table, laws_tab
 from wearsim.study.optimise.search_space import SearchSpace
 from wearsim.study.optimise.sheet import candidates_table
 from wearsim.study.optimise.trials import Candidate, OptimiseOutcome
-from wearsim.study.remaining.dated_rows import TIMES
 from wearsim.study.select.model import select
 from wearsim.study.select.requirements import DriveRequirements
 from wearsim.study.select.sheet import drive_columns

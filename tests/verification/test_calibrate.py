@@ -15,13 +15,13 @@ import wearsim
 from tests.drives import FAST_WRAP, changed
 from wearsim.errors import CaseError
 from wearsim.geometry.profile_points import Profile
+from wearsim.readings.relubrications import RelubricationLog
 from wearsim.study.calibrate import history_interpolation as blend
 from wearsim.study.calibrate import model as calibrations
 from wearsim.study.calibrate import predicted_history as courses
 from wearsim.study.calibrate.calibration import CalibrationOptions
 from wearsim.study.calibrate.model import calibrate
 from wearsim.study.calibrate.readings import Reading
-from wearsim.study.remaining.relubrications import RelubricationLog
 
 pytestmark = pytest.mark.wide
 

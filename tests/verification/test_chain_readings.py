@@ -11,9 +11,9 @@ from scipy.stats import norm, truncnorm
 
 import wearsim
 from tests.drives import FAST_WRAP, changed
-from wearsim.study.remaining.chain_readings import side_of_mark
+from wearsim.readings.chain_readings import side_of_mark
+from wearsim.readings.posterior import LEVELS, FactorPrior, factor_posterior
 from wearsim.study.remaining.chain_state import chain_state
-from wearsim.study.remaining.posterior import LEVELS, FactorPrior, factor_posterior
 
 WRAP = changed(FAST_WRAP, {"stop.elongation_percent": 3, "service": {"km_per_hour": 30, "hours_per_day": 8}})
 CELLS = "quantity,value,links,result,error"
@@ -105,7 +105,7 @@ def test_readings_without_a_band_are_least_squares():
 
 
 def reading(value, error):
-    from wearsim.study.remaining.chain_readings import ChainReading
+    from wearsim.readings.chain_readings import ChainReading
 
     return ChainReading(2, 1.0, "elongation_percent", value, value, error)
 

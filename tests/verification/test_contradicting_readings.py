@@ -8,9 +8,9 @@ from scipy.stats import norm
 
 import wearsim
 from tests.drives import ROAD_BICYCLE, changed
-from wearsim.study.remaining.chain_readings import ChainReading, side_of_mark
-from wearsim.study.remaining.contradictions import CHAIN, WearReading, contradictions
-from wearsim.study.remaining.posterior import LEVELS, FactorPrior, factor_posterior
+from wearsim.readings.chain_readings import ChainReading, side_of_mark
+from wearsim.readings.contradictions import CHAIN, WearReading, contradictions
+from wearsim.readings.posterior import LEVELS, FactorPrior, factor_posterior
 
 ROAD = changed(ROAD_BICYCLE, {"title": "Road bicycle, 50 to 17 teeth", "stop.elongation_percent": 1.5})
 TAKE_OFF = {

@@ -12,7 +12,7 @@ import wearsim
 from wearsim.lubrication.clock import LubricantClock
 from wearsim.lubrication.law import LubricantLaw
 from wearsim.lubrication.schedule import LubricantEvent, LubricantSchedule
-from wearsim.study.remaining.relubrications import RelubricationLog
+from wearsim.readings.relubrications import RelubricationLog
 
 pytest.importorskip("pandera", reason="pandera is not installed")
 

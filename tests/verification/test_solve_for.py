@@ -9,7 +9,7 @@ import pytest
 
 import wearsim
 from wearsim.errors import CaseError
-from wearsim.study.solve_for.model import Solved, solve_for
+from wearsim.runner.solve_for import Solved, solve_for
 
 STRAND: dict[str, Any] = {
     "format_version": 1,

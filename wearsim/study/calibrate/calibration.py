@@ -7,9 +7,9 @@ from typing import Any
 from wearsim.case.model import Case
 from wearsim.geometry.measured.registration import Freedom
 from wearsim.geometry.profile_points import Vector
+from wearsim.readings.relubrications import RelubricationLog
 from wearsim.study.calibrate.least_squares import ConfidenceInterval
 from wearsim.study.calibrate.observations import ReadingResidual
-from wearsim.study.remaining.relubrications import RelubricationLog
 
 
 @dataclass(frozen=True)

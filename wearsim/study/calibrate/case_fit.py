@@ -13,6 +13,7 @@ from wearsim.chain.joint_wear import JointLaw
 from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.geometry.profile_points import Vector
 from wearsim.lubrication.keys import SCHEDULES
+from wearsim.readings.chain_readings import GAUGE
 from wearsim.runner.design import replaced
 from wearsim.runner.scatter import coefficient_key
 from wearsim.simulation.wrap_life import wrap_of
@@ -37,7 +38,6 @@ from wearsim.study.calibrate.observations import GoNoGoReading, Observation, Pre
 from wearsim.study.calibrate.parameters import JOINT, JOINT_SOURCE, FitParameters, shape_values
 from wearsim.study.calibrate.reading_checks import reading_faults
 from wearsim.study.calibrate.readings import PROFILE, Reading
-from wearsim.study.remaining.chain_readings import GAUGE
 
 _FOREVER = 1e15
 """Horizon of the runs [h]: the limit must be reached, as all times are scaled."""

@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.stats import norm
 
+from wearsim.readings.chain_readings import ELONGATION, GAUGE
 from wearsim.report.text_lines import literal
 from wearsim.study.calibrate.calibration import Calibration
 from wearsim.study.calibrate.observations import ReadingResidual
 from wearsim.study.calibrate.readings import DEEPEST, OVER_PINS, POINT, PROFILE
-from wearsim.study.remaining.chain_readings import ELONGATION, GAUGE
 
 _AXES = {
     DEEPEST: "depth at the deepest point, mm",

@@ -8,14 +8,8 @@ from scipy.stats import chi2
 
 from wearsim.case.model import Case
 from wearsim.geometry.profile_points import Vector
-from wearsim.runner.scatter import coefficient_key
-from wearsim.study.calibrate.calibration import CalibrationOptions, FittedCoefficient, PartLife
-from wearsim.study.calibrate.least_squares import LeastSquaresFit
-from wearsim.study.calibrate.observations import Observation, PredictedState
-from wearsim.study.calibrate.parameters import EXPONENT, JOINT, SHAPES
-from wearsim.study.calibrate.readings import PROFILE, Reading
-from wearsim.study.remaining.chain_readings import GO, NO_GO
-from wearsim.study.remaining.contradictions import (
+from wearsim.readings.chain_readings import GO, NO_GO
+from wearsim.readings.contradictions import (
     CHAIN,
     JOINTS,
     TEETH,
@@ -24,7 +18,13 @@ from wearsim.study.remaining.contradictions import (
     contradiction_warnings,
     contradictions,
 )
-from wearsim.study.remaining.relubrications import RelubricationLog
+from wearsim.readings.relubrications import RelubricationLog
+from wearsim.runner.scatter import coefficient_key
+from wearsim.study.calibrate.calibration import CalibrationOptions, FittedCoefficient, PartLife
+from wearsim.study.calibrate.least_squares import LeastSquaresFit
+from wearsim.study.calibrate.observations import Observation, PredictedState
+from wearsim.study.calibrate.parameters import EXPONENT, JOINT, SHAPES
+from wearsim.study.calibrate.readings import PROFILE, Reading
 
 _TOGETHER = 0.95
 """Correlation above which two values are looked at together."""

@@ -6,8 +6,8 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase
+from wearsim.readings.relubrications import RelubricationLog, relubricated
 from wearsim.simulation import case_clock
-from wearsim.study.remaining.relubrications import RelubricationLog, relubricated
 from wearsim.wear.mate_clock import LubricatedClock
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from wearsim.geometry.measured.registration import UNSEEN, Freedom, RegisteredProfile, register
 from wearsim.geometry.measured.surface_filter import filter_stations, gaussian_weights
 from wearsim.geometry.profile_points import Vector
+from wearsim.readings.chain_readings import GAUGE
 from wearsim.study.calibrate.observations import (
     GaugeReading,
     GoNoGoReading,
@@ -18,7 +19,6 @@ from wearsim.study.calibrate.observations import (
 )
 from wearsim.study.calibrate.predicted_history import PredictedHistory
 from wearsim.study.calibrate.readings import PROFILE, Reading
-from wearsim.study.remaining.chain_readings import GAUGE
 
 
 def observation(

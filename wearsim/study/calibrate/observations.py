@@ -6,12 +6,12 @@ from typing import Protocol
 import numpy as np
 
 from wearsim.geometry.profile_points import Vector
+from wearsim.readings.chain_readings import ELONGATION, NO_GO, side_of_mark
+from wearsim.readings.posterior import log_probability
 from wearsim.study.calibrate.history_interpolation import WeightedHistory
 from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.predicted_history import PredictedHistory
 from wearsim.study.calibrate.readings import DEEPEST, POINT, Reading
-from wearsim.study.remaining.chain_readings import ELONGATION, NO_GO, side_of_mark
-from wearsim.study.remaining.posterior import log_probability
 
 
 @dataclass(frozen=True)

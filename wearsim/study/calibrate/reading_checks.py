@@ -5,12 +5,12 @@ from collections.abc import Iterator, Sequence
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.mechanisms.wrap.drive import instead_of
+from wearsim.readings.chain_readings import LENGTH
+from wearsim.readings.contradictions import ambiguous_reading
 from wearsim.study.calibrate.calibration import CalibrationOptions
 from wearsim.study.calibrate.parameters import BEYOND, EXPONENT, SHAPES, shape_values
 from wearsim.study.calibrate.predicted_history import PredictedHistory
 from wearsim.study.calibrate.readings import DEEPEST, OVER_PINS, POINT, PROFILE, Reading
-from wearsim.study.remaining.chain_readings import LENGTH
-from wearsim.study.remaining.model import ambiguous_reading
 
 _NONE, _FAR = 3.0, 5.0
 """Errors by which a value may lie below 0, and beyond the depth at the limit."""

@@ -13,17 +13,10 @@ from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.csv_tables import read_columns
 from wearsim.input.faults import Faults
+from wearsim.readings.chain_readings import ELONGATION, GAUGE, LENGTH, chain_cells, elongation_over
+from wearsim.readings.dated_rows import HOURS, DatedRows, ServiceTime, number, read_dated_rows, service_time
+from wearsim.readings.relubrications import EVENTS, RelubricationLog, event_faults, relubrication_log
 from wearsim.simulation.wrap_life import wrap_of
-from wearsim.study.remaining.chain_readings import ELONGATION, GAUGE, LENGTH, chain_cells, elongation_over
-from wearsim.study.remaining.dated_rows import (
-    HOURS,
-    DatedRows,
-    ServiceTime,
-    number,
-    read_dated_rows,
-    service_time,
-)
-from wearsim.study.remaining.relubrications import EVENTS, RelubricationLog, event_faults, relubrication_log
 
 if TYPE_CHECKING:
     import pandas as pd

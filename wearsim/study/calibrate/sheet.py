@@ -10,11 +10,11 @@ import pandas as pd
 from wearsim._version import ANSWER_HEAD
 from wearsim.command.study_files import plain
 from wearsim.quantities import grouped
+from wearsim.readings.relubrications import relubrication_rows
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result.folder import with_files
 from wearsim.study.calibrate.calibration import Calibration, FittedCoefficient, PartLife
 from wearsim.study.calibrate.least_squares import ConfidenceInterval
-from wearsim.study.remaining.chain_sheet import relubrication_rows
 
 
 def calibration_text(found: Calibration) -> str:

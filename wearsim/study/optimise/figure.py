@@ -7,8 +7,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from wearsim.report.key_words import axis_label
+from wearsim.report.parallel_scales import name_scales, scaled_heights
 from wearsim.study.optimise.trials import MAXIMISED, Candidate, OptimiseOutcome
-from wearsim.study.sweep.figure import name_scales, scaled_heights
 
 _MAX_LINES = 500
 

@@ -6,10 +6,10 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
+from wearsim.readings.chain_readings import GAUGE
+from wearsim.readings.relubrications import relubrication_rows
 from wearsim.report.text_lines import numbered_assumptions, row
-from wearsim.study.remaining.chain_readings import GAUGE
 from wearsim.study.remaining.chain_state import ChainState, Quantiles
-from wearsim.study.remaining.relubrications import RelubricationLog
 
 _DIGITS = {"elongation_percent": 3, "coefficient_factor": 3}
 """Digits of what is no time."""
@@ -51,15 +51,6 @@ def counted_readings(found: ChainState) -> str:
     return f"{measured} measured, {gauges} by a gauge" + (
         f", errors taken {widened:.3g} times as large" if widened > 1.0 else ""
     )
-
-
-def relubrication_rows(log: RelubricationLog) -> list[tuple[str, str]]:
-    """Return how often a part was relubricated; nothing where it was not."""
-    if not log.hours:
-        return []
-    count = "once" if len(log.hours) == 1 else f"{len(log.hours)} times"
-    every = grouped(log.mean_interval)
-    return [("Lubricated", f"{count}, every {every} h in the mean, and so on from here")]
 
 
 def chain_json(found: ChainState) -> dict[str, Any]:

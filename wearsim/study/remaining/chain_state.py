@@ -12,9 +12,8 @@ from wearsim.drive.drive_case import DriveCase, chain_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.drive import instead_of
-from wearsim.simulation.wrap_life import chain_clock, wrap_of
-from wearsim.study.remaining.chain_readings import NO_GO, ChainLog, ChainReading, read_chain_log
-from wearsim.study.remaining.contradictions import (
+from wearsim.readings.chain_readings import NO_GO, ChainLog, ChainReading, read_chain_log
+from wearsim.readings.contradictions import (
     CHAIN,
     JOINTS,
     Contradiction,
@@ -23,9 +22,10 @@ from wearsim.study.remaining.contradictions import (
     contradiction_warnings,
     contradictions,
 )
-from wearsim.study.remaining.dated_rows import day_after
-from wearsim.study.remaining.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
-from wearsim.study.remaining.relubrications import relubricated
+from wearsim.readings.dated_rows import day_after
+from wearsim.readings.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
+from wearsim.readings.relubrications import relubricated
+from wearsim.simulation.wrap_life import chain_clock, wrap_of
 
 _BEYOND, _POINTS = 1.1, 400
 """Part of the latest end of the life up to which the elongation is told, and at how many times."""

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from wearsim.readings.chain_readings import ChainReading
 from wearsim.report.text_lines import literal
-from wearsim.study.remaining.chain_readings import ChainReading
 from wearsim.study.remaining.chain_state import ChainState
 
 _LETTERS = 88

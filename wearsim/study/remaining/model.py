@@ -10,29 +10,11 @@ from wearsim.drive.drive_case import DriveCase, chain_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.drive import instead_of
+from wearsim.readings.contradictions import JOINTS, TEETH, ambiguous_reading, band_warning
 from wearsim.result import Life, LowerBound
 from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant
 from wearsim.simulation import simulate
 from wearsim.simulation.wrap_life import chain_clock, wrap_of
-from wearsim.study.remaining.contradictions import JOINTS, TEETH, band_warning
-
-
-def ambiguous_reading(over_pins: Vector, error: float) -> str:
-    """Return why a reading over pins may belong to several times of a life.
-
-    Examples
-    --------
-    >>> ambiguous_reading(np.array([80.0, 79.9, 79.95]), 0.1)
-    ''
-    """
-    again = float((over_pins - np.minimum.accumulate(over_pins)).max())
-    if again <= error:
-        return ""
-    return (
-        f"must belong to one time, but the measurement over pins grows again by {again:.3g} mm in the "
-        "life: measure the depth"
-    )
-
 
 _CONSTANT = ("life times coefficient is constant: load and lubrication stay as they were",)
 

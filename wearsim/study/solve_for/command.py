@@ -22,7 +22,7 @@ from wearsim.errors import CaseError, Fault, WearsimError
 if TYPE_CHECKING:
     from wearsim.case.model import Case
     from wearsim.drive.drive_case import DriveCase
-    from wearsim.study.solve_for.model import Solved
+    from wearsim.runner.solve_for import Solved
 
 
 def solve(
@@ -37,7 +37,7 @@ def solve(
     """Print the value of a key at which a case lives so long, and its answer there."""
     (case,) = load_cases([path], settings, as_json)
     from wearsim.drive.load_case import load_case
-    from wearsim.study.solve_for.model import solve_for
+    from wearsim.runner.solve_for import solve_for
 
     try:
         start = _start(case, key)

@@ -1,9 +1,7 @@
 """Pictures of a sweep: curves, a heat map, and parallel coordinates."""
 
 import math
-import textwrap
 from collections.abc import Sequence
-from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -17,6 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from wearsim.quantities import grouped
 from wearsim.report.figures import number_ticks
 from wearsim.report.key_words import axis_label, with_value
+from wearsim.report.parallel_scales import LEAST_APART, is_numeric, is_whole, name_scales, scaled_heights
 from wearsim.report.text_lines import literal
 from wearsim.study.sweep.model import Sweep
 
@@ -24,19 +23,13 @@ _MAX_CURVES = 10
 _MAX_LINES = 2000
 _MAX_NUMBERS = 100
 
-_APART = 0.07
-"""Least distance of two ticks, as a part of their axis."""
-
-_LETTERS = 18
-"""In a line below a scale of parallel coordinates."""
-
 
 def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, Figure]:
     """Return the pictures that suit a sweep, by file stem."""
     if not (table["hours_run"] > 0.0).any():
         return {}
     figures: dict[str, Figure] = {}
-    numeric = [axis[0] for axis in sweep.axes if len(axis) == 1 and _is_numeric(table[axis[0]])]
+    numeric = [axis[0] for axis in sweep.axes if len(axis) == 1 and is_numeric(table[axis[0]])]
     others = [key for key in sweep.design.keys if not numeric or key != numeric[0]]
     if numeric and len(table.groupby(others) if others else [0]) <= _MAX_CURVES:
         figures["curves"] = _curves(table, numeric[0], others)
@@ -45,14 +38,6 @@ def sweep_figures(sweep: Sweep, table: pd.DataFrame) -> dict[str, Figure]:
     if len(sweep.design.keys) > 1:
         figures["parallel"] = _parallel(table, sweep.design.keys)
     return figures
-
-
-def _is_numeric(column: "pd.Series[Any]") -> bool:
-    return all(isinstance(value, int | float) and value is not True for value in column)
-
-
-def _is_whole(column: "pd.Series[Any]") -> bool:
-    return all(isinstance(value, int) for value in column)
 
 
 def _hours(table: pd.DataFrame) -> "pd.Series[float]":
@@ -81,10 +66,10 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
     panel.set_ylabel("life, h")
     panel.set_ylim(0.0, 1.1 * panel.dataLim.y1)
     ticks = np.unique(table[key].to_numpy(float))
-    if np.diff(ticks).min(initial=math.inf) > _APART * np.ptp(ticks):
+    if np.diff(ticks).min(initial=math.inf) > LEAST_APART * np.ptp(ticks):
         panel.set_xticks(ticks, [grouped(float(value)) for value in ticks])
     else:
-        panel.xaxis.set_major_locator(MaxNLocator(integer=_is_whole(table[key])))
+        panel.xaxis.set_major_locator(MaxNLocator(integer=is_whole(table[key])))
     panel.grid(alpha=0.3)
     if panel.get_legend_handles_labels()[0]:
         panel.legend(frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -158,50 +143,3 @@ def _parallel(table: pd.DataFrame, keys: Sequence[str]) -> Figure:
     name_scales(panel, [*(axis_label(key, keys) for key in keys), "life, h"])
     _hours_bar(figure, panel, ScalarMappable(norm, "viridis"))
     return figure
-
-
-def name_scales(panel: Axes, names: Sequence[str]) -> None:
-    """Write below each scale of parallel coordinates what it shows."""
-    panel.set_xticks(np.arange(len(names)), [textwrap.fill(name, _LETTERS) for name in names], fontsize=8)
-    panel.tick_params(length=0.0)
-    panel.set_yticks([])
-    panel.set_ylim(-0.05, 1.05)
-    panel.set_xlim(-0.5, len(names) - 0.5)
-    panel.spines[["top", "right", "left", "bottom"]].set_visible(False)
-
-
-def scaled_heights(panel: Axes, at: int, values: "pd.Series[Any]") -> "np.ndarray[Any, Any]":
-    """Draw one scale of parallel coordinates; its numbers stand on white, in front of all lines."""
-    panel.axvline(at, color="0.3", linewidth=1.0)
-    if _is_numeric(values):
-        places = values.to_numpy(float)
-        marks = {value: grouped(value) for value in _scale_ticks(values).tolist()}
-    else:
-        names = list(dict.fromkeys(map(str, values)))
-        places = np.array([names.index(str(value)) for value in values], float)
-        marks = dict(enumerate(names))
-    low, span = places.min(), np.ptp(places)
-    for place, text in marks.items():
-        panel.annotate(
-            literal(text),
-            (at, (place - low) / span if span else 0.5),
-            xytext=(-5.0, 0.0),
-            textcoords="offset points",
-            ha="right",
-            va="center",
-            fontsize=8,
-            zorder=5,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
-        )
-    return (places - low) / span if span else np.full(len(places), 0.5)
-
-
-def _scale_ticks(values: "pd.Series[Any]") -> "np.ndarray[Any, Any]":
-    """The values themselves where they are few, else both ends and round numbers between them."""
-    own = np.unique(values.to_numpy(float))
-    apart = _APART * np.ptp(own)
-    if len(own) <= 2 or np.diff(own).min() > apart:
-        return own
-    low, high = own[0], own[-1]
-    inner = MaxNLocator(5, integer=_is_whole(values)).tick_values(low, high)
-    return np.array([low, *inner[(inner > low + apart) & (inner < high - apart)], high])

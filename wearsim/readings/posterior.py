@@ -11,7 +11,7 @@ from scipy.stats import chi2
 
 from wearsim.case.model import log_deviation
 from wearsim.geometry.profile_points import Vector
-from wearsim.study.remaining.chain_readings import ChainReading
+from wearsim.readings.chain_readings import ChainReading
 
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
 """Probabilities of the quantiles that are told: ends of 90 and 50 %, and the middle."""

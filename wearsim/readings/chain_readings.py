@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from wearsim.errors import CaseError, Fault
-from wearsim.study.remaining.dated_rows import (
+from wearsim.readings.dated_rows import (
     DATE,
     DatedRows,
     ServiceTime,
@@ -16,7 +16,7 @@ from wearsim.study.remaining.dated_rows import (
     read_dated_rows,
     service_time,
 )
-from wearsim.study.remaining.relubrications import (
+from wearsim.readings.relubrications import (
     EVENTS,
     NEW,
     RELUBRICATION,

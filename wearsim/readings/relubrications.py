@@ -10,8 +10,8 @@ from wearsim.drive.drive_case import DriveCase, chain_case
 from wearsim.errors import CaseError, Fault
 from wearsim.lubrication.model import LubricationInput, RunningWay
 from wearsim.quantities import grouped
+from wearsim.readings.dated_rows import DatedRows, ServiceTime
 from wearsim.simulation import case_clock
-from wearsim.study.remaining.dated_rows import DatedRows, ServiceTime
 
 NEW, RELUBRICATION = "new", "relubrication"
 EVENTS = (NEW, RELUBRICATION)
@@ -183,3 +183,12 @@ def _check_interval(case: Case, log: RelubricationLog) -> None:
 
 def _fault(log: RelubricationLog, column: str, text: str) -> CaseError:
     return CaseError([Fault(text, column, log.file, log.line)])
+
+
+def relubrication_rows(log: RelubricationLog) -> list[tuple[str, str]]:
+    """Return how often a part was relubricated; nothing where it was not."""
+    if not log.hours:
+        return []
+    count = "once" if len(log.hours) == 1 else f"{len(log.hours)} times"
+    every = grouped(log.mean_interval)
+    return [("Lubricated", f"{count}, every {every} h in the mean, and so on from here")]

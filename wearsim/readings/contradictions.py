@@ -5,9 +5,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
+import numpy as np
 from scipy.stats import norm
 
 from wearsim.case.model import WearBand
+from wearsim.geometry.profile_points import Vector
 from wearsim.quantities import grouped
 
 _ERRORS = 3.0
@@ -138,3 +140,20 @@ def band_warning(factor: float, band: WearBand, coefficient: str) -> Iterator[st
             f"the readings imply {factor:.3g} times {coefficient}, outside its band of {band.low:.3g} to "
             f"{band.high:.3g}: check the readings and the load"
         )
+
+
+def ambiguous_reading(over_pins: Vector, error: float) -> str:
+    """Return why a reading over pins may belong to several times of a life.
+
+    Examples
+    --------
+    >>> ambiguous_reading(np.array([80.0, 79.9, 79.95]), 0.1)
+    ''
+    """
+    again = float((over_pins - np.minimum.accumulate(over_pins)).max())
+    if again <= error:
+        return ""
+    return (
+        f"must belong to one time, but the measurement over pins grows again by {again:.3g} mm in the "
+        "life: measure the depth"
+    )
