@@ -197,7 +197,7 @@ def extrapolated(coarse: float, fine: float) -> float:
 def steps_life(case: wearsim.Case, level: int) -> Trajectory:
     """Wear a wrap by steps that are halved so many times."""
     contact = case.drive.contact(case)
-    law, limits, horizon = wrap_problem(case, contact)
+    law, limits, horizon, _ = wrap_problem(case, contact)
     run = run_seated(contact, law, limits, horizon, level)
     if run.met is None:
         raise wearsim.ConvergenceError("no life")

@@ -15,7 +15,7 @@ from wearsim.cli.main import wearsim_command
 from wearsim.quantities import grouped
 from wearsim.simulation import case_clock
 from wearsim.study.lubricate.answer import LubricationResult
-from wearsim.study.lubricate.runs import lubricate
+from wearsim.study.lubricate.runs import compare_intervals
 from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -40,7 +40,7 @@ STRAND: dict[str, Any] = {
 
 
 def study(*settings: str, tables: dict[str, Any] | None = None) -> Any:
-    return lubricate(wearsim.load_case(tables or STRAND, settings))
+    return compare_intervals(wearsim.load_case(tables or STRAND, settings))
 
 
 def mean_factor(interval: float, lasts: float = 50.0, fades: float = 200.0, dry: float = 5.0) -> float:

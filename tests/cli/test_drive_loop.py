@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import tomllib
 
 import pytest
@@ -396,6 +397,18 @@ def test_a_failed_part_stands_on_the_sheet(cli, idler_fails, tmp_path):
     assert "its run failed: the rollers are not found" in text and "nothing is known of tensioner" in text
     # Links of the layout lead to the flanks of their sprockets: that of the pump is the third.
     assert 'id="flank-3"' in text and 'id="flank-2"' not in text
+
+
+def test_a_loop_that_nothing_takes_up_is_rated_by_half_the_elongation(cli, loop, tmp_path):
+    """1.5 % in place of 3 %: by default, and as the limit that a user's own is held against."""
+    text = re.sub(r"take_up = .*\n", "", loop).replace("[306, 0]", "[311.7, 0]").replace("1.3", "0.3")
+    path = tmp_path / "fixed.toml"
+    path.write_text(text)
+    for settings, value, ok in (((), 1.5, True), (("--set", "stop.elongation_percent=1.7"), 1.7, False)):
+        found = json.loads(cli("check", path, "--json", *settings).out)
+        (rule,) = [one for one in found["rating"] if one["name"] == "elongation at the end"]
+        assert (rule["value"], rule["limit"], rule["ok"]) == (value, 1.5, ok)
+        assert rule["source"].startswith("1.5 % as nothing takes up")
 
 
 @pytest.mark.wide

@@ -27,3 +27,11 @@ def test_file_is_what_the_drives_give(stated_error, again):
     for row, before in zip(again, stated_error.read(), strict=True):
         assert (row.kind, row.number) == (before.kind, before.number)
         assert row.life == pytest.approx(before.life, rel=0.1 * max(before.stated, 1e-4))
+
+
+@pytest.mark.parametrize("kind", ["strand", "table", "pair", "wrap"])
+def test_a_reference_is_found_again(stated_error, kind):
+    """The program that drew the file still runs, so that it can be renewed where a drive has changed."""
+    first = next(row for row in stated_error.read() if row.kind == kind)
+    found = stated_error.judged(kind, first.number)
+    assert found.reference == pytest.approx(first.reference, rel=0.1 * max(first.stated, 1e-4))

@@ -15,7 +15,7 @@ from wearsim.drive.load_case import load_drive
 from wearsim.drive.said_of_sprockets import said_of_sprockets
 from wearsim.drive.wheels import DriveWheel
 from wearsim.errors import ConvergenceError
-from wearsim.report.drive.sheet import jumping_text
+from wearsim.report.drive.drive_words import jumping_text
 from wearsim.result import LimitState
 
 RING = {"name": "ring", "teeth": 38, "profile": "iso606", "nodes": 31}

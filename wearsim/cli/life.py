@@ -28,7 +28,6 @@ from wearsim.command.options import (
 from wearsim.command.single_file import check_workbook, workbook_option, write_workbook
 from wearsim.errors import WearsimError
 
-SPROCKET = "sprocket"
 """Name of the only one of a case."""
 
 if TYPE_CHECKING:
@@ -213,6 +212,7 @@ def _show(
     result: "WearResult | DriveLife", grids: "dict[str, GridStudy]", path: Path, as_json: bool, explain: bool
 ) -> None:
     from wearsim.report.answer import grid_json, grid_text
+    from wearsim.result.ends import SPROCKET
 
     if as_json:
         studies = {name: grid_json(grid) for name, grid in grids.items()}

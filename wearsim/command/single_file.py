@@ -78,7 +78,7 @@ def write_workbook(results: "Mapping[Path, WearResult | DriveLife]", file: Path,
     """
     from wearsim.drive.drive_result import DriveLife
     from wearsim.report.comparison import distinct
-    from wearsim.report.drive.sheet import found_rows
+    from wearsim.report.drive.drive_words import found_rows
     from wearsim.report.workbook import save_workbook
 
     sheets: dict[str, WearResult] = {}

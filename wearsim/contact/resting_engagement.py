@@ -23,6 +23,13 @@ from wearsim.kernels.flank_geometry import flank_frame
 Rows = NDArray[np.float64]
 
 
+REACH_IN_RADII = 1.2
+"""Half of the stretch of outline that an event may touch, in radii of the mate."""
+
+FORCE_TOLERANCE = 1e-6
+"""Force that may be left unbalanced, as a part of the load."""
+
+
 class MateWear(NamedTuple):
     """What a mate in use has lost, such as a chain."""
 

@@ -15,6 +15,7 @@ from wearsim.input.document import GivenInput, read_document
 from wearsim.input.mechanism_registry import read_case
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.notebook import html_rows, one_line
+from wearsim.result.ends import SPROCKET
 
 
 @dataclass(frozen=True)
@@ -133,7 +134,7 @@ class DriveCase:
 def single_cases(case: Case | DriveCase) -> dict[str, Case]:
     """Return the cases of single sprockets by their names; that of one sprocket is ``sprocket``."""
     if isinstance(case, Case):
-        return {"sprocket": case}
+        return {SPROCKET: case}
     return {one.name: one.case for one in case.sprockets}
 
 

@@ -14,7 +14,7 @@ from wearsim.drive.said_of_sprockets import said_of_sprockets
 from wearsim.errors import WearsimError
 from wearsim.notebook import html_rows, one_line
 from wearsim.result import Life, LowerBound, WearResult
-from wearsim.result.ends import PartEnd, before_wear, earliest_life, first_end, part_ends
+from wearsim.result.ends import CHAIN, PartEnd, before_wear, earliest_life, first_end, part_ends
 from wearsim.result.lives import hours
 from wearsim.result.second_opinions import SecondOpinions
 from wearsim.simulation.wrap_life import part_band
@@ -23,9 +23,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-CHAIN = "chain"
-
-_PICTURES, _SHEET = "wearsim.report.result_pictures", "wearsim.report.drive.sheet"
+_PICTURES, _SHEET = "wearsim.report.result_pictures", "wearsim.report.drive.drive_words"
 _FOLDER = "wearsim.report.drive.drive_folder"
 """What shows and writes a result; they know results, and not the other way round."""
 

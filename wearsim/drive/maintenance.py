@@ -6,11 +6,12 @@ from dataclasses import dataclass, replace
 
 from wearsim.case.keys import MaintenanceTable
 from wearsim.drive.drive_case import DriveCase
-from wearsim.drive.drive_result import CHAIN, DriveLife
+from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.plan import STOPS, Prices, ReplacementRule, Stop, cheapest, replacement_rules
 from wearsim.drive.renewal import SAME, least_cost_rate
 from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.result import Life, LowerBound
+from wearsim.result.ends import CHAIN
 from wearsim.result.events import Event, drive_events
 
 CONVENTIONS = (

@@ -12,8 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from wearsim.drive.renewal import SAME, SAVES, Cycle, cheapest_cycle, cycles_in_life, fewest_stops
-
-CHAIN = "chain"
+from wearsim.result.ends import CHAIN
 
 WITH_CHAIN, FEWEST_STOPS = "sprockets with a chain change", "fewest stops"
 """Name of the rule of the fewest stops: where the chain is replaced in all of them, and where it is not."""

@@ -20,9 +20,9 @@ _MAX_ROWS = 200_000
 class PrescribedTable:
     """Load and sliding along a flank."""
 
-    arc_length: Vector  # columns of the file [mm, N/mm, 1/mm]
-    load_per_width: Vector  # columns of the file [mm, N/mm, 1/mm]
-    flank_curvature: Vector  # columns of the file [mm, N/mm, 1/mm]
+    arc_length: Vector  # [mm]
+    load_per_width: Vector  # [N/mm]
+    flank_curvature: Vector  # [1/mm]
     slip_ratio: Vector | None  # |v_s|/v_t, where the file gives it
     sliding_distance: Vector | None  # path [mm], where the file gives it
     sliding_speed: Vector | None  # sliding speed [mm/s], where the file gives it

@@ -3,7 +3,7 @@
 import math
 import shlex
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from wearsim.chain.power_rating import RATED_HOURS
 from wearsim.chain.selection import RatingFinding, rated_for_hours
@@ -17,9 +17,6 @@ from wearsim.result.lives import hours
 from wearsim.result.second_opinions import SecondOpinions, practice_text, rule_rows
 from wearsim.result.service import service_measures
 from wearsim.wear.accuracy import LEAST_ORDER, MAX_ORDER, GridStudy
-
-if TYPE_CHECKING:
-    from wearsim.wear.accuracy import GridStudy
 
 BAND, LIMITS = "Band", "Limits"
 OVERLOADED = "Overloaded:"

@@ -15,7 +15,7 @@ CHAIN, SPROCKET = "chain", "sprocket"
 JOINT_WEAR, TOOTH_WEAR, PITTING = "joint wear", "tooth wear", "contact fatigue"
 WEAR = JOINT_WEAR, TOOTH_WEAR
 
-Lives = tuple[Life | LowerBound, Life | LowerBound]
+LifeBand = tuple[Life | LowerBound, Life | LowerBound]
 """A life at the high and at the low end of its coefficient."""
 
 
@@ -49,7 +49,7 @@ class PartEnd:
         return self.reached and self.hours is not None
 
 
-def wear_end(part: str, mode: str, life: Life | LowerBound, band: Lives | None) -> PartEnd:
+def wear_end(part: str, mode: str, life: Life | LowerBound, band: LifeBand | None) -> PartEnd:
     """Return the end of a part by wear."""
     low, high = (None, None) if band is None else (band[0].hours_run, band[1].hours_run)
     return PartEnd(part, mode, life.hours_run, low, high, isinstance(life, Life))
@@ -80,14 +80,14 @@ def _verdict(rating: Rating, finding: RatingFinding) -> str:
 
 
 def part_ends(
-    parts: Mapping[str, Life | LowerBound], bands: Mapping[str, Lives], ratings: Sequence[RatingFinding]
+    parts: Mapping[str, Life | LowerBound], bands: Mapping[str, LifeBand], ratings: Sequence[RatingFinding]
 ) -> tuple[PartEnd, ...]:
     """Return everything that may end the parts of a drive, that which comes first at the head.
 
     Parameters
     ----------
     parts : mapping
-        Lives by wear of ``chain`` and sprockets, and of names that end in ``_fatigue`` by contact fatigue.
+        LifeBand by wear of ``chain`` and sprockets, and of names that end in ``_fatigue`` by contact fatigue.
     bands : mapping
         Bands of those that have one.
     ratings : sequence of RatingFinding

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.power_rating import NO_MORE_HOURS
 from wearsim.quantities import grouped
-from wearsim.result.ends import Lives
+from wearsim.result.ends import LifeBand
 from wearsim.result.lives import Life
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class SecondOpinions:
         poorer = self.lubrication if self.lubrication_factor < 1.0 else ""
         return tuple(filter(None, (poorer, outside)))
 
-    def within(self, band: Lives) -> bool:
+    def within(self, band: LifeBand) -> bool:
         """Return whether the mean of the rules lies in the band of a life, as far as that is known.
 
         Hours above 100 000 are all alike.

@@ -16,7 +16,7 @@ from wearsim.errors import WearsimError
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.compiled import source_hash
 from wearsim.notebook import html_rows, one_line
-from wearsim.result.ends import PITTING, Lives, PartEnd, before_wear, ends_json, first_end_keys, part_ends
+from wearsim.result.ends import PITTING, LifeBand, PartEnd, before_wear, ends_json, first_end_keys, part_ends
 from wearsim.result.events import Event, drive_events, events_json
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
 from wearsim.result.lives import Life, LimitState, LowerBound, first_life, life_keys
@@ -73,7 +73,7 @@ class WearResult:
     life_tolerance : float
         What was asked for.
     parts : mapping
-        Lives of ``chain`` and ``sprocket`` on a wrap, with chains replaced at their limit;
+        LifeBand of ``chain`` and ``sprocket`` on a wrap, with chains replaced at their limit;
         ``sprocket_fatigue``, or ``pinion_fatigue`` and ``wheel_fatigue`` of gears, where their
         materials are given: hours until pitting, which ``life`` leaves out; empty otherwise.
     limits : tuple of LimitState
@@ -120,7 +120,7 @@ class WearResult:
     life_tolerance: float
     parts: Mapping[str, Life | LowerBound]
     limits: tuple[LimitState, ...]
-    bands: Mapping[str, Lives]
+    bands: Mapping[str, LifeBand]
     ratings: tuple[RatingFinding, ...]
     practice: SecondOpinions | None
     assumptions: tuple[str, ...]
@@ -189,7 +189,7 @@ class WearResult:
 
     @property
     def fatigue(self) -> dict[str, Life | LowerBound]:
-        """Lives of `parts` by contact fatigue; empty where it was not asked for."""
+        """LifeBand of `parts` by contact fatigue; empty where it was not asked for."""
         return {name: life for name, life in self.parts.items() if name.endswith("_fatigue")}
 
     @property
@@ -204,7 +204,7 @@ class WearResult:
 
     @property
     def named_lives(self) -> dict[str, Life | LowerBound]:
-        """Lives by what they are in words: by wear, by contact fatigue, and by what else ends it first."""
+        """LifeBand by what they are in words: by wear, by contact fatigue, and by what else ends it first."""
         fatigue = {f"{name.replace('_', ' ')} life": life for name, life in self.fatigue.items()}
         first = before_wear(self.ends)
         other = {} if first is None or first.mode == PITTING else {f"life by {first.mode}": first.life}
@@ -298,7 +298,7 @@ class WearResult:
         }
 
     def _parts(self) -> dict[str, Any]:
-        """Lives of the parts, which of wear and contact fatigue governs, and the chains they take."""
+        """LifeBand of the parts, which of wear and contact fatigue governs, and the chains they take."""
         keys: dict[str, Any] = {}
         for name, life in self.parts.items():
             found = life_keys(f"{name}_life_hours", life)

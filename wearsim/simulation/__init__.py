@@ -17,43 +17,7 @@ _TIGHTER, _TIGHTEST = 1e-2, 1e-7
 
 
 def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) -> WearResult:
-    """Wear the sprocket of a case until its first limit and return its life.
-
-    Parameters
-    ----------
-    case : Case
-        A complete case.
-    progress : callable, optional
-        Told by a wrap how much of its run is done, from 0 to 1; it only rises.
-
-    Returns
-    -------
-    WearResult
-        Complete: life or lower bound, its band, history and worn flanks.
-
-    Raises
-    ------
-    CaseError
-        The chain jumps on new teeth.
-    ContactError
-        The contact leaves its theory or vanishes.
-    ConvergenceError
-        The life would be wrong.
-
-    Examples
-    --------
-    >>> import wearsim
-    >>> case = wearsim.load_case({
-    ...     "format_version": 1,
-    ...     "chain": {"designation": "16B-1"},
-    ...     "sprocket": {"teeth": 20, "profile": "evolute"},
-    ...     "load": {"power_kW": 3, "speed_rpm": 100},
-    ...     "wear": {"condition": "hardened, oiled"},
-    ... })
-    >>> result = wearsim.simulate(case)
-    >>> result.life.hours == result.life.cycles / (60 * 100)
-    True
-    """
+    """Wear the sprocket of a case until its first limit, as the public `wearsim.simulate` does."""
     case.drive.check(case)
     if case.drive.rests:
         from wearsim.simulation.wrap_life import simulate_wrap

@@ -6,7 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
+from wearsim.contact.resting_engagement import (
+    FORCE_TOLERANCE,
+    NEW_MATE,
+    REACH_IN_RADII,
+    MateWear,
+    RestingContact,
+)
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.profile_points import Profile
 from wearsim.kernels.event_rows import EVENT_COUNT, EVENT_LOAD, EVENT_SLIP, EVENT_SPEED
@@ -37,9 +43,6 @@ Rows = NDArray[np.float64]
 _LEAST = 1e-12
 """Part of the cycles of a run that a step takes at least: a new mate whose coefficient falls fast is longer
 by much after cycles that are too few to be told apart."""
-
-_REACH = 1.2
-"""Half of the stretch of outline that an event may touch, in radii of the mate."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,8 +122,8 @@ class WornBodies:
         self.numbers[PRESSURE_EXPONENT] = law.pressure_exponent
         self.numbers[SPEED_EXPONENT] = law.speed_exponent
         self.numbers[CASE_DEPTH], self.numbers[CORE_FACTOR] = law.case_depth, law.core_factor
-        self.numbers[REACH] = math.ceil(_REACH * contact.mate_radius / step)
-        self.numbers[TOLERANCE] = 1e-6
+        self.numbers[REACH] = math.ceil(REACH_IN_RADII * contact.mate_radius / step)
+        self.numbers[TOLERANCE] = FORCE_TOLERANCE
         self.work = np.zeros((3 + WORK_ROWS, max(points, EVENT_NUMBERS)))
         self.findings = np.zeros(FINDINGS)
         self.pressures = np.zeros((0, points))

@@ -36,13 +36,13 @@ LINK_STIFFNESS_PER_PITCH = 5e4 / 12.7
 SLIP_FRACTION = 0.1
 PHASES = 6
 
-TOLERANCE = 5e-2
+WRAP_TOLERANCE = 5e-2
 """Relative tolerance of a life by default, as it costs more than on a strand."""
 
 
 def read(document: Document, place: PlaceInLoop | None = None) -> Case:
     """Return the case of a chain around a sprocket, of two or in its place in a loop."""
-    return read_chain_case(document, partial(wrapped_drive, place=place), TOLERANCE)
+    return read_chain_case(document, partial(wrapped_drive, place=place), WRAP_TOLERANCE)
 
 
 def wrapped_drive(

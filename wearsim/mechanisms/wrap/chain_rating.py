@@ -54,14 +54,20 @@ def rules_without_limit(by_load: Sequence[Sequence[RatingFinding]]) -> tuple[str
     return tuple(name for name in RATINGS if not all(name in names for names in found))
 
 
-def elongation_finding(all_teeth: Sequence[int], limit: float) -> RatingFinding:
+def elongation_rule(layout: DriveLayout | LoopLayout) -> tuple[float, str]:
+    """Return the elongation at which a chain is worn out [%], to four digits, and the rule in words."""
+    # Of two wheels the centre distance is adjusted; a loop has a take-up or none.
+    fixed = isinstance(layout, LoopLayout) and layout.drive.take_up is None
+    most = f"{100.0 * elongation_limit(1, not fixed):g} %{' as nothing takes up' if fixed else ''}"
+    return float(f"{100.0 * elongation_limit(max(layout.all_teeth), not fixed):.4g}"), most
+
+
+def elongation_finding(layout: DriveLayout | LoopLayout, limit: float) -> RatingFinding:
     """Return how the elongation at which a chain is replaced stands to the rule for it."""
-    allowed = elongation_limit(max(all_teeth))
-    # Both to the four digits of the limit that a case takes by default.
-    value, allowed = (float(f"{100.0 * part:.4g}") for part in (limit, allowed))
-    return RatingFinding(
-        "elongation at the end", value, allowed, "%", "3 %, 200 % over the teeth of the larger sprocket"
-    )
+    allowed, most = elongation_rule(layout)
+    value = float(f"{100.0 * limit:.4g}")
+    rule = f"{most}, 200 % over the teeth of the larger sprocket"
+    return RatingFinding("elongation at the end", value, allowed, "%", rule)
 
 
 def drive_notes(

@@ -502,7 +502,7 @@ class WrapDrive(Drive):
 
     def ratings(self, case: Case) -> tuple[RatingFinding, ...]:
         """Return what the handbooks say about the drive: of its worst load, but hours of the whole duty."""
-        limit = elongation_finding(self.layout.all_teeth, self.joint.elongation_limit)
+        limit = elongation_finding(self.layout, self.joint.elongation_limit)
         shares = [share for share, _ in self.pulling]
         worst = worst_findings(self._findings(case, self.rated))
         return (*with_hours_over_duty(worst, shares, self._findings(case, self.blocks)), limit)

@@ -20,6 +20,7 @@ from wearsim.catalogue.catalogues import (
 from wearsim.chain.drive_layout import DriveLayout
 from wearsim.chain.joint_wear import JointBand, JointLaw, JointState, extrapolated, joint_band, joint_law
 from wearsim.chain.loop_layout import LoopLayout
+from wearsim.mechanisms.wrap.chain_rating import elongation_rule
 from wearsim.mechanisms.wrap.drive import (
     CONSTANT,
     JOINT_COEFFICIENT,
@@ -147,11 +148,8 @@ def _rollers(case: ChainRecord) -> float:
 
 
 def _usual_elongation(case: ChainRecord, layout: DriveLayout | LoopLayout) -> float:
-    fixed = isinstance(layout, LoopLayout) and layout.drive.take_up is None
-    most = 1.5 if fixed else 3.0
-    limit = float(f"{min(most, 200.0 / max(layout.all_teeth)):.4g}")
-    why = f"{most:g} %{' as nothing takes up' if fixed else ''}, or 200 % over the larger number of teeth"
-    case.take("stop.elongation_percent", limit, why)
+    limit, most = elongation_rule(layout)
+    case.take("stop.elongation_percent", limit, f"{most}, or 200 % over the larger number of teeth")
     return limit
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.resting_engagement import MateWear, PressedPlaces
+from wearsim.contact.resting_engagement import FORCE_TOLERANCE, REACH_IN_RADII, MateWear, PressedPlaces
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.event_rows import (
@@ -73,12 +73,6 @@ Rows = NDArray[np.float64]
 _PASSES = 6
 """Times that the rollers are seated in a stage at most."""
 
-_TOLERANCE = 1e-6
-"""Force that may be left unbalanced, as a part of the tight tension."""
-
-_REACH = 1.2
-"""Half of the stretch of outline that a roller may touch, in its radii."""
-
 
 def phases_of_pitch(wrap_angle: float, pitch_angle: float, count: int) -> Rows:
     """Return places and weights of phases of a pitch, both sides of where a roller leaves the wrap.
@@ -138,8 +132,8 @@ class WrapSeating(PressedPlaces):
         step = float(contact.arc_length[-1]) / (self.unworn.shape[1] - 1)
         numbers[WRAP_ANGLE], numbers[FACE_WIDTH] = contact.mechanism.wrap_angle, contact.face_width
         numbers[PATH_SLIP], numbers[MODULUS] = contact.sliding.path_fraction, contact.modulus
-        numbers[REACH] = math.ceil(_REACH * contact.mate_radius / step)
-        numbers[TOLERANCE] = _TOLERANCE
+        numbers[REACH] = math.ceil(REACH_IN_RADII * contact.mate_radius / step)
+        numbers[TOLERANCE] = FORCE_TOLERANCE
         self.coefficient = float(law[0])
         numbers[[EXPONENT, SPEED_POWER, HARD_DEPTH, SOFTNESS]] = law[1:]
         return numbers

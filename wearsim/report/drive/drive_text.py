@@ -2,11 +2,11 @@
 
 import shlex
 
-from wearsim.drive.drive_result import CHAIN, DriveLife
+from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan
 from wearsim.drive.plan import Stop
 from wearsim.report.answer import pressure_that_counts, used_text
-from wearsim.report.drive.sheet import (
+from wearsim.report.drive.drive_words import (
     Lives,
     against_hours,
     band_source,
@@ -32,7 +32,7 @@ from wearsim.report.drive.sheet import (
 )
 from wearsim.report.text_lines import counted, listed, numbered, row
 from wearsim.result import Life
-from wearsim.result.ends import wear_only
+from wearsim.result.ends import CHAIN, wear_only
 from wearsim.result.lives import hours
 from wearsim.result.second_opinions import span_text
 

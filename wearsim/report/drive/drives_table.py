@@ -4,12 +4,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wearsim.drive.drive_result import CHAIN, DriveLife
+from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan
 from wearsim.files import new_folder
 from wearsim.quantities import grouped
-from wearsim.report.drive.sheet import first_text, ratings_text
+from wearsim.report.drive.drive_words import first_text, ratings_text
 from wearsim.result import life_keys
+from wearsim.result.ends import CHAIN
 from wearsim.result.lives import hours
 
 if TYPE_CHECKING:

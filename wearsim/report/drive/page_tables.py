@@ -14,8 +14,8 @@ from wearsim.drive.wheels import DriveWheel
 from wearsim.errors import CaseError, GeometryError
 from wearsim.mechanisms.wrap.drive import PRESSURE_SPEED, JointInput
 from wearsim.quantities import grouped
+from wearsim.report.drive.drive_words import part_ending
 from wearsim.report.drive.layout import layout_json
-from wearsim.report.drive.sheet import part_ending
 from wearsim.result import Life, LowerBound
 from wearsim.result.lives import hours
 from wearsim.result.service import service_measures

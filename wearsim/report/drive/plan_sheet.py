@@ -4,14 +4,13 @@ from pathlib import Path
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.drive.drive_result import CHAIN
 from wearsim.drive.maintenance import DrivePlan
 from wearsim.drive.plan import ReplacementRule, Stop
 from wearsim.quantities import grouped
 from wearsim.report.drive.plan_words import rule_text
 from wearsim.report.text_lines import row, table_lines
 from wearsim.result import Life, LowerBound, life_keys
-from wearsim.result.ends import before_wear
+from wearsim.result.ends import CHAIN, before_wear
 from wearsim.result.lives import hours
 from wearsim.result.service import service_measures
 

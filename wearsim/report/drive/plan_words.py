@@ -1,9 +1,10 @@
 """A plan of replacements in words."""
 
-from wearsim.drive.plan import CHAIN, ReplacementRule
+from wearsim.drive.plan import ReplacementRule
 from wearsim.drive.renewal import Cycle, cycles_in_life
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import listed
+from wearsim.result.ends import CHAIN
 
 _MAX_STOPS = 6
 """Stops of a part that are named; of more only their number is said."""

@@ -16,6 +16,14 @@ from wearsim.geometry.scene import Circle, Scene
 from wearsim.quantities import grouped
 from wearsim.report import html
 from wearsim.report.answer import overload_text
+from wearsim.report.drive.drive_words import (
+    against_hours,
+    first_text,
+    jumping_text,
+    outside_practice,
+    taken_for_granted,
+    within_text,
+)
 from wearsim.report.drive.layout_sketch import flank_place, layout_sketch
 from wearsim.report.drive.lives_bars import lives_bars
 from wearsim.report.drive.page_tables import (
@@ -29,14 +37,6 @@ from wearsim.report.drive.page_tables import (
     rating_table,
     shaft_table,
     span_table,
-)
-from wearsim.report.drive.sheet import (
-    against_hours,
-    first_text,
-    jumping_text,
-    outside_practice,
-    taken_for_granted,
-    within_text,
 )
 from wearsim.report.html.page_content import HtmlTable, chain_tables
 from wearsim.report.html.sketch import sketch

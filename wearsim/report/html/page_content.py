@@ -41,7 +41,7 @@ class HtmlTable(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class DrivePage:
+class CasePage:
     """The page of one drive."""
 
     name: str  # of the file, and of the drive
@@ -54,9 +54,9 @@ class DrivePage:
     overloaded: str
     wear_only: bool  # whether no hours are known but those of wear
     reached: bool  # whether it is a life and not a bound
-    low: str  # the lives at the ends of the band, and where that comes from
-    high: str  # the lives at the ends of the band, and where that comes from
-    band: str  # the lives at the ends of the band, and where that comes from
+    low: str  # life at the short end of the band
+    high: str  # life at its long end
+    band: str  # where that comes from
     percentiles: list[tuple[str, str]]  # names and hours, where they are known
     findings: list[tuple[str, str]]  # the rest of the answer
     margins: list[Margin]  # of every stop limit
@@ -71,8 +71,8 @@ class DrivePage:
     pictures: dict[str, str]  # still pictures as data URIs, by the stems that charts name
     inputs: list[Input]  # every key
     sources: list[tuple[str, str]]  # of the catalogue's numbers
-    assumptions: list[str]  # what is taken for granted, and the defaults taken
-    defaults: list[str]  # what is taken for granted, and the defaults taken
+    assumptions: list[str]  # what is taken for granted
+    defaults: list[str]  # values taken where the input gives none
     warnings: tuple[str, ...]  # of the result
     versions: list[tuple[str, str]]  # of what calculated it and of what wrote the page
     citation: str  # how to cite
@@ -93,14 +93,14 @@ class ComparisonPage:
     citation: str  # how to cite
 
 
-def drive_page(result: WearResult, name: str, brief: bool) -> DrivePage:
+def case_page(result: WearResult, name: str, brief: bool) -> CasePage:
     """Return the page of one drive."""
     case = case_of(result)
     tooth = tooth_charts(result)
     charts = [] if brief else _charts(result, case)
     figures = comparison_figures([result], {chart.still for chart in (*tooth, *charts)})
     taken, defaults = stated_and_defaults(result.assumptions)
-    return DrivePage(
+    return CasePage(
         name=name,
         title=result.title,
         brief=brief,

@@ -12,7 +12,7 @@ from plotly.offline import get_plotlyjs
 
 from wearsim._version import __version__
 from wearsim.files import file_names, new_folder
-from wearsim.report.html.page_content import comparison_page, drive_page
+from wearsim.report.html.page_content import case_page, comparison_page
 from wearsim.result import WearResult
 
 _HERE = Path(__file__).parent
@@ -26,7 +26,7 @@ def save_report(
     names = file_names([result.case for result in results])
     brief = detail == "brief"
     pages = {
-        f"{name}.html": ("drive.html.j2", drive_page(result, name, brief))
+        f"{name}.html": ("case.html.j2", case_page(result, name, brief))
         for name, result in zip(names, results, strict=True)
     }
     written: dict[str, tuple[str, Any]] = dict(pages)

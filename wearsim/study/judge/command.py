@@ -29,8 +29,8 @@ def judge(data: Path, particles: int, shown: Shown) -> None:
     held_out, the later half of each series is held out.
     """
     shown.check(data)
-    from wearsim.study.judge.answer import judge as judged
+    from wearsim.study.judge import answer
 
     with shown.failing(data.stem), working(f"judging {data.stem}") as progress:
-        answer = judged(data, particles=particles, progress=progress)
-    shown.save(answer, data)
+        found = answer.judge(data, particles=particles, progress=progress)
+    shown.save(found, data)

@@ -9,7 +9,7 @@ from wearsim.quantities import grouped
 from wearsim.report.public_answer import DrawnAnswer, table_of
 from wearsim.runner.in_threads import Progress, silent
 from wearsim.study.lubricate.model import LubricationStudy
-from wearsim.study.lubricate.runs import lubricate as compare_intervals
+from wearsim.study.lubricate.runs import compare_intervals
 from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows, write_lubrication
 
 if TYPE_CHECKING:

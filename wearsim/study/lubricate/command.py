@@ -21,9 +21,9 @@ def lubricate(case: Path, shown: Shown, settings: tuple[str, ...]) -> None:
     [[lubrication.option]] other lubricants, and [maintenance] the prices of chain and sprockets.
     """
     (loaded,) = load_cases([case], settings, shown.as_json)
-    from wearsim.study.lubricate.answer import lubricate as compare_intervals
+    from wearsim.study.lubricate import answer
 
     shown.check()
     with shown.failing(case.stem), working(f"wearing {loaded.title}") as progress:
-        answer = compare_intervals(loaded, progress=progress)
-    shown.save(answer, case)
+        found = answer.lubricate(loaded, progress=progress)
+    shown.save(found, case)

@@ -7,7 +7,6 @@ from typing import Any
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import lubricants
 from wearsim.drive.drive_case import DriveCase
-from wearsim.drive.drive_result import CHAIN
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_case
 from wearsim.drive.maintenance import part_lives
@@ -15,13 +14,11 @@ from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput
 from wearsim.lubrication.keys import APPLICATION, FADES, LASTS, RATES, SCHEDULES, SUPPLY
-from wearsim.result import Life, LowerBound
+from wearsim.result.ends import CHAIN, SPROCKET
 from wearsim.simulation import case_clock, simulate
 from wearsim.simulation.wrap_life import chain_clock
 from wearsim.study.lubricate.model import LubricatedDrive, LubricationStudy, check_ages, lubrication_study
 from wearsim.wear.wear_clock import WearClock
-
-SPROCKET = "sprocket"
 
 _OF_A_LUBRICANT = (*LASTS, *FADES, "dry_factor", "completeness", "contamination_removed", *SUPPLY)
 """Keys that do not hold for another lubricant."""
@@ -33,7 +30,7 @@ _SCHEDULED = (*SCHEDULES, "lasts_hours")
 """Keys in which a case lacks something that suits its schedule."""
 
 
-def lubricate(
+def compare_intervals(
     case: Case | DriveCase, progress: Callable[[float], None] = lambda part: None
 ) -> LubricationStudy:
     """Return life and cost against the interval, for the lubricant of a case and for its options."""
@@ -103,10 +100,8 @@ def _run(case: Case | DriveCase, progress: Callable[[float], None]) -> Lubricate
     if isinstance(case, DriveCase):
         return _run_drive(case, progress)
     result = simulate(case, progress)
-    lives: dict[str, Life | LowerBound] = dict(result.parts) or {SPROCKET: result.life}
-    lives = {name: life for name, life in lives.items() if name in (CHAIN, SPROCKET)} or {
-        SPROCKET: result.life
-    }
+    worn = {name: life for name, life in result.parts.items() if name in (CHAIN, SPROCKET)}
+    lives = worn or {SPROCKET: result.life}
     prices = case.inputs.get("maintenance", {})
     return LubricatedDrive(
         case,

@@ -25,9 +25,9 @@ def maintain(case: Path, shown: Shown, settings: tuple[str, ...]) -> None:
     part and the prices in [maintenance].
     """
     (loaded,) = load_cases([case], settings, shown.as_json)
-    from wearsim.study.maintain.answer import maintain as compare_policies
+    from wearsim.study.maintain import answer
 
     shown.check()
     with shown.failing(case.stem), working(f"wearing {loaded.title}") as progress:
-        answer = replace(compare_policies(loaded, progress=progress), source=str(case))
-    shown.save(answer, case)
+        found = replace(answer.maintain(loaded, progress=progress), source=str(case))
+    shown.save(found, case)

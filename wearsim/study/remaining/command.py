@@ -95,10 +95,10 @@ def remaining(
             raise click.UsageError("READINGS hold hours and values: leave out --hours, --sprocket and so on")
         shown.check(case, readings)
         (loaded,) = load_cases([case], settings, shown.as_json)
-        from wearsim.study.remaining.answer import remaining as left
+        from wearsim.study.remaining import answer
 
         with shown.failing(case.stem):
-            of_chain = left(loaded, readings=readings, error=reading_error_percent)
+            of_chain = answer.remaining(loaded, readings=readings, error=reading_error_percent)
         shown.save(of_chain, case)
         return
     if hours is None:
@@ -108,11 +108,11 @@ def remaining(
     if shown.out is not None:
         raise click.UsageError("--out needs READINGS: one reading has neither table nor picture")
     (loaded,) = load_cases([case], settings, shown.as_json)
-    from wearsim.study.remaining.answer import remaining as left
+    from wearsim.study.remaining import answer
 
     error = reading_error_percent if elongation is not None else reading_error_mm
     with shown.failing(case.stem), working(f"wearing {loaded.title}") as progress:
-        answer = left(
+        found = answer.remaining(
             loaded,
             hours,
             depth=depth_mm,
@@ -122,4 +122,4 @@ def remaining(
             sprocket=sprocket,
             progress=progress,
         )
-    shown.show(answer, case)
+    shown.show(found, case)

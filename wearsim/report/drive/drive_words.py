@@ -5,7 +5,7 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.chain.selection import deciding, rated_for_hours
-from wearsim.drive.drive_result import CHAIN, DriveLife
+from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan, planned_events
 from wearsim.drive.plan import Stop
 from wearsim.drive.said_of_sprockets import said_of_sprockets
@@ -25,7 +25,7 @@ from wearsim.report.drive.layout import layout_json
 from wearsim.report.drive.plan_words import ordinal
 from wearsim.report.text_lines import listed, stated_and_defaults
 from wearsim.result import Life, LowerBound, WearResult, life_keys
-from wearsim.result.ends import before_wear, ends_json, first_end_keys
+from wearsim.result.ends import CHAIN, before_wear, ends_json, first_end_keys
 from wearsim.result.events import events_json
 from wearsim.result.lives import hours
 from wearsim.result.second_opinions import opinions_json, practice_text
