@@ -9,8 +9,8 @@ import pytest
 
 import wearsim
 from tests import drives
-from wearsim.command.study_files import save_figures
 from wearsim.report.figures import flanks_figure
+from wearsim.report.study_files import save_figures
 from wearsim.result import Life, LowerBound
 from wearsim.study.maintain.figure import maintenance_figure
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy

@@ -282,7 +282,7 @@ def test_folder_of_a_stranger_is_never_taken(cases, tmp_path, content):
 
 
 def test_marker_of_a_study_names_its_files(cases, tmp_path):
-    from wearsim.command.study_files import save_files
+    from wearsim.report.study_files import save_files
     from wearsim.runner.store import open_store
 
     folder = open_store(tmp_path / "study", cases, {"study": "test"}, False).folder

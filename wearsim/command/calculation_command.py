@@ -23,7 +23,7 @@ from wearsim.command.options import (
 from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import CalculationSheet
+    from wearsim.report.calculation_sheet import CalculationSheet
 
 Compute = Callable[..., "CalculationSheet"]
 Option = Callable[[Callable[..., Any]], Callable[..., Any]]

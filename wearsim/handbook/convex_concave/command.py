@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import CalculationSheet
+    from wearsim.report.calculation_sheet import CalculationSheet
 
 
 @calculation("convex-concave", "Flanks, contact and outlines of convex-concave gears.")

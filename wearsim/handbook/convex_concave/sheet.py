@@ -10,7 +10,6 @@ import pandas as pd
 
 from wearsim.cad.dxf_writer import write_dxf
 from wearsim.cad.stl import prism, write_stl
-from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.geometry.gear.convex_concave import SignCondition
 from wearsim.geometry.gear.convex_concave_flank import ConvexConcaveFlank
 from wearsim.geometry.outline import rotated
@@ -23,6 +22,7 @@ from wearsim.handbook.convex_concave.model import (
     RackArc,
     ZoneContact,
 )
+from wearsim.report.calculation_sheet import CalculationSheet
 from wearsim.report.text_lines import numbered_assumptions, row
 
 _POINTS = 101

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from wearsim.command.calculation_command import calculation
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import CalculationSheet
+    from wearsim.report.calculation_sheet import CalculationSheet
 
 
 @calculation("face-load", "Face load factor of a misaligned pair, new and run in.")

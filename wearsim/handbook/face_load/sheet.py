@@ -4,11 +4,11 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.handbook.face_load.face_slices import equivalent_misalignment
 from wearsim.handbook.face_load.face_wear import FaceRunningIn, FaceState
 from wearsim.handbook.face_load.model import FaceLoad
 from wearsim.quantities import grouped
+from wearsim.report.calculation_sheet import CalculationSheet
 from wearsim.report.text_lines import numbered_assumptions, row
 
 if TYPE_CHECKING:

@@ -9,9 +9,9 @@ from wearsim.command.calculation_command import calculation
 from wearsim.command.options import working
 
 if TYPE_CHECKING:
-    from wearsim.command.calculation_sheet import CalculationSheet
     from wearsim.handbook.hertz_check.hertz_fem import FemContact
     from wearsim.handbook.hertz_check.pitch_point_contact import PitchPointContact
+    from wearsim.report.calculation_sheet import CalculationSheet
 
 
 @calculation(

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.contact.line_stress import (
     GreatestStress,
     axis_shear,
@@ -22,6 +21,7 @@ from wearsim.handbook.hertz_check.model import ROUNDING, Comparison, HertzCheck
 from wearsim.handbook.hertz_check.pitch_point_contact import InputChange, PitchPointContact, share_for
 from wearsim.handbook.hertz_check.published import AxisFile
 from wearsim.handbook.hertz_check.text import ASSUMPTIONS, hertz_check_text
+from wearsim.report.calculation_sheet import CalculationSheet
 
 _WIDE = 0.05
 """Half-width over the smaller radius beyond which a contact is no longer narrow."""

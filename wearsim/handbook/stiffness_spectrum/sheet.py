@@ -4,11 +4,11 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.mesh_statics import MeshStatics
 from wearsim.handbook.stiffness_spectrum.model import SpectrumLine, StiffnessSpectrum
 from wearsim.quantities import grouped
+from wearsim.report.calculation_sheet import CalculationSheet
 from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 
 if TYPE_CHECKING:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.fatigue.endurance import Endurance, EnduredHours
 from wearsim.handbook.strength.keys import StrengthTables
 from wearsim.handbook.strength.model import (
@@ -19,6 +18,7 @@ from wearsim.handbook.strength.model import (
     shown_hours,
 )
 from wearsim.quantities import grouped
+from wearsim.report.calculation_sheet import CalculationSheet
 from wearsim.report.text_lines import numbered_assumptions, row
 
 if TYPE_CHECKING:

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.contact.prescribed_stress import LoadedPair
 from wearsim.errors import GeometryError
 from wearsim.geometry.gear.path_of_contact import PathOfContact
@@ -16,6 +15,7 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.synthesise.figure import direction_figure, field_figure, indices_figure, line_figure
 from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.model import MeshField, MeshPhase, direction_fields, stress_fields
+from wearsim.report.calculation_sheet import CalculationSheet
 from wearsim.report.text_lines import numbered_assumptions, row
 
 _ASSUMPTIONS = (

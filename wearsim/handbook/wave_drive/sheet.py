@@ -4,8 +4,8 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from wearsim.command.calculation_sheet import CalculationSheet
 from wearsim.handbook.wave_drive.model import MethodComparison, MethodDiameter
+from wearsim.report.calculation_sheet import CalculationSheet
 from wearsim.report.text_lines import numbered_assumptions, row
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from typing import Any
 import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.command.study_files import plain
 from wearsim.quantities import grouped
 from wearsim.readings.relubrications import relubrication_rows
+from wearsim.report.study_files import plain
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result.folder import with_files
 from wearsim.study.calibrate.calibration import Calibration, FittedCoefficient, PartLife

@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.command.study_files import plain
+from wearsim.report.study_files import plain
 from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 from wearsim.study.judge.model import FittedConstant, JudgedLaw, Judgement
 

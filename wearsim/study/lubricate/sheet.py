@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.command.study_files import plain
 from wearsim.quantities import grouped
+from wearsim.report.study_files import plain
 from wearsim.report.text_lines import numbered_assumptions, row, table_lines
 from wearsim.study.lubricate.intervals import MissedRelubrication, RelubricationPolicy
 from wearsim.study.lubricate.model import LubricantPlan, LubricationStudy

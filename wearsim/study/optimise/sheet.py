@@ -8,8 +8,8 @@ from typing import Any
 import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
+from wearsim.report.study_files import plain, save_figures, save_files
 from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.optimise.design_files import save_designs

@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.case.model import Case
-from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
 from wearsim.report.figures import number_ticks
 from wearsim.report.key_words import key_words
+from wearsim.report.study_files import plain, save_figures, save_files
 from wearsim.runner.design import value_at
 from wearsim.runner.scatter import coefficient_key
 from wearsim.study.sensitivity.model import HIGH, LOW, KeyEffect, SensitivityStudy

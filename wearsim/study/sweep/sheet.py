@@ -9,8 +9,8 @@ from typing import Any
 import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped
+from wearsim.report.study_files import plain, save_figures, save_files
 from wearsim.runner.shard import life_columns
 from wearsim.study.sweep.model import Sweep
 

@@ -7,8 +7,8 @@ from typing import Any
 import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.command.study_files import plain, save_figures, save_files
 from wearsim.quantities import grouped, percentile_meaning
+from wearsim.report.study_files import plain, save_figures, save_files
 from wearsim.study.uncertainty.cross_check import BoundedValue, CrossCheck, CrossFit
 from wearsim.study.uncertainty.model import UncertaintyStudy
 from wearsim.study.uncertainty.percentiles import B10, CONFIDENCE, DistributionFit, Percentile
