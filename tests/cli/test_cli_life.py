@@ -283,7 +283,8 @@ def test_solve_for_without_an_answer_is_4(cli, drive, conforms):
     [
         ("load.tension_N", "it is not in the case"),
         ("sprocket.profile", "it is 'evolute'"),
-        ("nothing.at_all", "it is not in the case"),
+        ("nothing.at_all", "--solve-for must be a key of a case"),
+        ("load.powr_kW", "did you mean 'load.power_kW'"),
         ("title", "but it is '"),
         ("wear.speed_exponent", "needs a value above 0 to start from"),
     ],

@@ -185,15 +185,23 @@ def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]
 
 
 def _check_keys(document: Document, keys: Sequence[str], file: str) -> None:
-    known = {key.replace("[]", "") for key, _ in schema_fields(schema_of(document.data))}
-    faults = []
-    for key in keys:
-        plain = without_numbers(key)
-        if plain not in known:
-            text = f"must be a key of a case{nearest(plain, dict.fromkeys(known))}"
-            faults.append(Fault(text, f'"{key}"', file))
+    found = ((key, unknown_key(document.data, key)) for key in keys)
+    faults = [Fault(text, f'"{key}"', file) for key, text in found if text]
     if faults:
         raise CaseError(faults)
+
+
+def unknown_key(tables: Mapping[str, Any], key: str) -> str:
+    """Say that a case has no such key, and which may be meant; empty where it may have it.
+
+    Examples
+    --------
+    >>> unknown_key({"chain": {}}, "load.powr_kW")
+    "must be a key of a case; did you mean 'load.power_kW' or 'duty.power_kW'?"
+    """
+    known = {key.replace("[]", "") for key, _ in schema_fields(schema_of(tables))}
+    plain = without_numbers(key)
+    return "" if plain in known else f"must be a key of a case{nearest(plain, dict.fromkeys(known))}"
 
 
 def _taken(document: Document, files: dict[str, str], path: str) -> str:

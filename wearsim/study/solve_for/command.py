@@ -60,8 +60,10 @@ def solve(
 
 def _start(case: "Case | DriveCase", key: str) -> float:
     """Return the value that the case has, an integer where only whole numbers are allowed."""
-    from wearsim.runner.design import value_in
+    from wearsim.runner.design import unknown_key, value_in
 
+    if unknown := unknown_key(case.inputs, key):
+        raise CaseError([Fault(f"--solve-for {unknown}", key, case.name)])
     value = value_in(case, key)
     if isinstance(value, bool) or not isinstance(value, int | float):
         what = "is not in the case" if value is None else f"is {value!r}"
