@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-import wearsim
 from wearsim.cli.command_groups import COMMAND_GROUPS
 from wearsim.cli.main import wearsim_command
 
@@ -49,7 +48,7 @@ SHORT = {
 }
 """What makes a command that runs many lives or fits short."""
 
-CASES = Path(wearsim.__file__).parents[1] / "cases"
+CASES = Path(__file__).parents[2] / "cases"
 
 OWN = {
     "calibrate": {"drive.toml": "16b-20t-oiled.toml", "readings.csv": "studies/16b-20t-readings.csv"},

@@ -12,7 +12,7 @@ from wearsim.report.worn_flank import wheel_shapes
 
 pytestmark = pytest.mark.slow
 
-CASES = Path(wearsim.__file__).parents[1] / "cases"
+CASES = Path(__file__).parents[2] / "cases"
 
 
 @pytest.mark.parametrize(
