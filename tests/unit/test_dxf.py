@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from ezdxf.document import Drawing
 
+from wearsim.cad.dxf_writer import dxf_drawing
 from wearsim.errors import GeometryError
 from wearsim.geometry.measured.dxf_outline import outline_from_dxf
 
@@ -217,3 +218,10 @@ def test_unit_that_is_no_length_of_a_wheel_is_refused(drawing: Drawing, save: Sa
     drawing.modelspace().add_lwpolyline(star(), close=True)
     with pytest.raises(GeometryError, match="is number 19: set it to mm"):
         outline_from_dxf(save(drawing), TEETH)
+
+
+def test_a_drawing_has_the_same_lines_in_every_process(tmp_path):
+    """The library takes names of classes from a set, whose order the hash of strings decides."""
+    dxf_drawing([], {"body": (7, 25, "Continuous")}).saveas(tmp_path / "empty.dxf")
+    keys = [found.key for found in ezdxf.readfile(tmp_path / "empty.dxf").classes]
+    assert len(keys) > 10 and keys == sorted(keys)

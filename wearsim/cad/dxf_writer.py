@@ -39,6 +39,10 @@ def dxf_drawing(shapes: Iterable[Shape], layers: Layers) -> "Drawing":
             bulges += [0.0] * (len(rows) - len(bulges))
             points = [(x, y, bulge) for (x, y), bulge in zip(rows, bulges, strict=True)]
             space.add_lwpolyline(points, format="xyb", close=shape.closed, dxfattribs=ink)
+    # The library takes their names from a set: in another order in every process.
+    classes = drawing.classes
+    classes.add_required_classes(drawing.dxfversion)
+    classes.classes = dict(sorted(classes.classes.items()))
     return drawing
 
 
