@@ -174,8 +174,8 @@ def test_several_drives_at_once(cli, drive, tmp_path):
     for text in ("08B-1, 17 to 20 teeth: roll", "08B-1, 17 to 25 teeth: roll"):
         assert any(text in cell for cell in sheet)
     done = cli("export", out / "drive", "--out", tmp_path / "roll.dxf")
-    assert done.code == 2
-    assert f"is that of a whole drive: give {out / 'drive' / 'drive.lock.toml'}" in done.err
+    assert done.code == 2 and "is a whole drive: give --sprocket, one of 'driver', 'roll'" in done.err
+    assert cli("compare", out / "drive", out / "other").code == 0
 
 
 def test_all_drives_are_checked_before_one_runs(cli, drive, tmp_path):

@@ -83,8 +83,18 @@ REASONS = {
 """Why a command has no answer for a kind of case: exit code 2, and these words."""
 
 
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("command", COMMANDS)
+LONG = {("optimise --evaluations 10 --threads 1", kind) for kind in ("loop", "cassette")}
+"""Cells that take too long for every change; `.ci/slow` runs them."""
+
+
+@pytest.mark.parametrize(
+    ("command", "kind"),
+    [
+        pytest.param(command, kind, marks=pytest.mark.slow if (command, kind) in LONG else ())
+        for command in COMMANDS
+        for kind in KINDS
+    ],
+)
 def test_a_command_answers_or_names_its_reason(cli, tmp_path, monkeypatch, command, kind):
     monkeypatch.chdir(tmp_path)
     name, *options = command.split()
