@@ -203,7 +203,12 @@ def elongation_limit(teeth: int, adjustable: bool = True) -> float:
     >>> elongation_limit(57), elongation_limit(100), elongation_limit(57, adjustable=False)
     (0.03, 0.02, 0.015)
     """
-    return min(0.03 if adjustable else 0.015, 2.0 / teeth)
+    return min(greatest_elongation(adjustable), 2.0 / teeth)
+
+
+def greatest_elongation(adjustable: bool) -> float:
+    """Return the elongation at which a chain is worn out on wheels of few teeth, as a fraction."""
+    return 0.03 if adjustable else 0.015
 
 
 def rating_note(series: str) -> str:

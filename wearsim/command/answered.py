@@ -50,7 +50,8 @@ class Shown(NamedTuple):
     def show(self, answer: "Answer", source: Path) -> None:
         """Print an answer."""
         if self.as_json:
-            print_json(answer.summary(), source, answer.warnings)
+            content = answer.summary()
+            print_json(content, source, content["warnings"])
         else:
             show(answer.text)
 

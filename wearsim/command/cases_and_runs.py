@@ -34,11 +34,14 @@ def loaded_sources(
 
 def _run(folder: Path) -> "WearResult | DriveLife":
     """Read the run of one sprocket, of a pair of gears or of a whole drive."""
-    from wearsim.drive.drive_result import DriveLife
+    # One sprocket starts without what only whole drives take.
+    if (folder / "drive.json").is_file():
+        from wearsim.drive.drive_result import DriveLife
+
+        return DriveLife.load(folder)
     from wearsim.result import WearResult
 
-    kind = DriveLife if (folder / "drive.json").is_file() else WearResult
-    return kind.load(folder)
+    return WearResult.load(folder)
 
 
 def results_of(

@@ -41,8 +41,7 @@ def simulate(
     case : Case, DriveCase, path or mapping
         One sprocket, a gear pair or a whole drive; which of them a file is, only its answer tells.
     progress : callable, optional
-        Told by a wrap how much of its run is done, from 0 to 1; from 0 again where a run
-        with smaller steps follows.
+        Told by a wrap how much of its run is done, from 0 to 1, by a drive how much of all; it only rises.
 
     Returns
     -------

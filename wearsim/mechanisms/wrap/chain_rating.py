@@ -7,7 +7,14 @@ from dataclasses import replace
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings, polygon_effect
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.power_rating import hours_over_duty
-from wearsim.chain.selection import RATINGS, RatedDrive, RatingFinding, assess, elongation_limit
+from wearsim.chain.selection import (
+    RATINGS,
+    RatedDrive,
+    RatingFinding,
+    assess,
+    elongation_limit,
+    greatest_elongation,
+)
 
 RatedLoad = tuple[str, RatedDrive]
 """A load in words, empty where it is the only one, and what the ratings need to know under it."""
@@ -58,7 +65,7 @@ def elongation_rule(layout: DriveLayout | LoopLayout) -> tuple[float, str]:
     """Return the elongation at which a chain is worn out [%], to four digits, and the rule in words."""
     # Of two wheels the centre distance is adjusted; a loop has a take-up or none.
     fixed = isinstance(layout, LoopLayout) and layout.drive.take_up is None
-    most = f"{100.0 * elongation_limit(1, not fixed):g} %{' as nothing takes up' if fixed else ''}"
+    most = f"{100.0 * greatest_elongation(not fixed):g} %{' as nothing takes up' if fixed else ''}"
     return float(f"{100.0 * elongation_limit(max(layout.all_teeth), not fixed):.4g}"), most
 
 

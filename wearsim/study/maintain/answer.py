@@ -160,6 +160,6 @@ def maintain(
     found = loaded(case if maintenance is None else with_table(case, "maintenance", maintenance))
     if isinstance(found, Case):
         found.drive.check(found)
-        return MaintenanceResult(compare_policies(found, lambda done, of, what: progress(done / of)))
+        return MaintenanceResult(compare_policies(found, lambda done, of: progress(done / of)))
     source = str(case) if isinstance(case, str | PathLike) else ""
     return MaintenanceResult(drive_plan(drive_life(found, progress).complete()), source)

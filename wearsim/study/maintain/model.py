@@ -15,8 +15,8 @@ from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.maintain.reversed_sprocket import reversed_life
 from wearsim.study.maintain.tooth_count import ToothCount, meetings_around, variant
 
-Progress = Callable[[int, int, str], None]
-"""Told before each run how many are done, of how many, and what comes next."""
+Progress = Callable[[int, int], None]
+"""Told before each run how many are done, and of how many."""
 
 POLICIES = (1.0, 1.5, 2.0, 3.0)
 """Elongations in percent to compare where none are given, as far as they lie below the drive's limit."""
@@ -109,7 +109,7 @@ def cost_per_1000_hours(table: MaintenanceTable, hours: float, chains: int, stop
     return 1000.0 * (chains * table.chain_price + table.sprocket_price + stops * stop) / hours
 
 
-def maintain(case: Case, progress: Progress = lambda done, of, what: None) -> MaintenancePlan:
+def maintain(case: Case, progress: Progress = lambda done, of: None) -> MaintenancePlan:
     """Compare policies of replacing the chain of a case.
 
     Each policy is a run to the sprocket's limit with a new chain whenever one has grown to
@@ -128,7 +128,7 @@ def maintain(case: Case, progress: Progress = lambda done, of, what: None) -> Ma
     warnings = list(case.warnings)
     policies = _all_policies(case, drive, table, elongations, steps, warnings)
     own = [policy for policy in policies if policy.replace_at == drive.joint.elongation_limit]
-    counts = _with_lives(counts, case, own[0] if own else None, steps.next, warnings)
+    counts = _with_lives(counts, case, own[0] if own else None, steps, warnings)
     return MaintenancePlan(
         case=case.name,
         title=case.title,
@@ -154,8 +154,8 @@ class _Steps:
     def __init__(self, total: int, progress: Progress) -> None:
         self.total, self.progress, self.done = total, progress, 0
 
-    def next(self, what: str) -> None:
-        self.progress(self.done, self.total, what)
+    def next(self) -> None:
+        self.progress(self.done, self.total)
         self.done += 1
 
 
@@ -189,7 +189,7 @@ def _policies(
     """Return one policy, and the same with the sprocket turned where that is wanted."""
     drive = wrap_of(case)
     what = f"chain replaced at {100.0 * drive.joint.elongation_limit:.3g} %"
-    steps.next(what)
+    steps.next()
     first = simulate(case)
     warnings += [text for text in first.warnings if text not in warnings]
     policy = ReplacementPolicy(
@@ -201,7 +201,7 @@ def _policies(
     )
     found = [policy]
     if table.turn_sprocket and isinstance(policy.sprocket, Life):
-        steps.next(f"{what}, sprocket turned")
+        steps.next()
         try:
             second, error = reversed_life(case, first)
         except (ContactError, ConvergenceError) as reason:
@@ -226,7 +226,7 @@ def _with_lives(
     counts: tuple[ToothCount, ...],
     case: Case,
     own: ReplacementPolicy | None,
-    tell: Callable[[str], None],
+    steps: _Steps,
     warnings: list[str],
 ) -> tuple[ToothCount, ...]:
     """Return the counts with the lives of those to be run; the case's own is a policy as a rule."""
@@ -240,7 +240,7 @@ def _with_lives(
         elif own is not None and (meetings.teeth, meetings.links) == numbers:
             found.append(replace(count, lives={"chain": chain_life(case), "sprocket": own.sprocket}))
         else:
-            tell(f"{meetings.teeth} teeth, {meetings.links} links")
+            steps.next()
             found.append(_run_count(count, case, warnings))
     return tuple(found)
 
