@@ -13,7 +13,7 @@ import pytest
 from wearsim.files import check_folder
 from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
 from wearsim.handbook.convex_concave.sheet import convex_concave_sheet
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 from wearsim.quantities import quantities
 
 ROOT = Path(__file__).parents[2]

@@ -14,8 +14,7 @@ from pathlib import Path
 import pytest
 
 import wearsim
-import wearsim.cli.doctor
-from wearsim import installation as doctor
+from wearsim.cli import doctor
 from wearsim.extras import libraries
 from wearsim.kernels import compiled
 

@@ -18,7 +18,7 @@ import wearsim.handbook.synthesise.sheet
 from wearsim.errors import CaseError
 from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.sheet import synthesis_sheet
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 from wearsim.quantities import quantities
 
 CASES = Path(__file__).parents[2] / "cases" / "sizing"

@@ -16,8 +16,7 @@ from wearsim.report.drive.layout import layout_json
 from wearsim.report.drive.plan_sheet import plan_json
 from wearsim.report.drive.report_page import SheetHead, save_sheet, sheet_html
 from wearsim.result import Life
-from wearsim.result.lives import hours
-from wearsim.result.service import service_measures
+from wearsim.result.lives import hours, service_measures
 
 LOOP = """\
 format_version = 1

@@ -21,8 +21,8 @@ from wearsim.case.table_inputs import TOLERANCE, run_input, take_defaults, wear_
 from wearsim.cli.main import wearsim_command
 from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.geometry.profile_points import Profile
-from wearsim.input.calculation_file import checked
-from wearsim.input.case_record import CaseRecord
+from wearsim.input.document import checked
+from wearsim.input.faults import CaseRecord
 from wearsim.input.mechanism_registry import MECHANISMS, MechanismEntry
 from wearsim.input.table import CalculationTables
 from wearsim.input.units import Positive

@@ -17,7 +17,7 @@ from wearsim.geometry.gear.plane_gearing import PitchCircles
 from wearsim.geometry.measured.points import flank_from_points
 from wearsim.geometry.profile_points import Profile
 from wearsim.geometry.roller_path import roller_path
-from wearsim.kernels.gear_rows import SLIP
+from wearsim.kernels.gear_pair import SLIP
 from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism

@@ -10,9 +10,9 @@ import pytest
 from scipy.optimize import brentq
 
 from wearsim.drive import life
+from wearsim.drive.drive_case import said_of_sprockets
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
-from wearsim.drive.said_of_sprockets import said_of_sprockets
 from wearsim.drive.wheels import DriveWheel
 from wearsim.errors import ConvergenceError
 from wearsim.report.drive.drive_words import jumping_text

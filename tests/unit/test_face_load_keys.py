@@ -5,7 +5,7 @@ import pytest
 from wearsim.errors import CaseError
 from wearsim.handbook.face_load.keys import FaceLoadTables
 from wearsim.handbook.face_load.sheet import face_load_sheet
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 
 BASE = {
     "format_version": 1,

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from wearsim.drive.load_case import load_drive
-from wearsim.geometry.label_places import FreePlaces, label_box
 from wearsim.geometry.scene import Label
-from wearsim.mechanisms.wrap.loop_scene import chain_path, loop_scene
+from wearsim.mechanisms.wrap.loop_scene import FreePlaces, chain_path, label_box, loop_scene
 from wearsim.quantities import grouped
 from wearsim.report.drive.layout import drive_forces
 

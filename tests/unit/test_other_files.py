@@ -7,8 +7,7 @@ import pytest
 from wearsim.command.registry import CALCULATIONS, tables_of
 from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError
-from wearsim.input.calculation_file import load_calculation
-from wearsim.input.document import NEEDED
+from wearsim.input.document import NEEDED, load_calculation
 
 CASES = Path(__file__).parents[2] / "cases"
 OTHERS = [*(CASES / "sizing").glob("*.toml"), *(CASES / "studies").glob("*.toml")]

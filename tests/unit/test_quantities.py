@@ -21,8 +21,8 @@ from wearsim.cli.schema import result_schema
 from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
 from wearsim.drive.load_case import load_case
 from wearsim.input.csv_tables import read_prescribed
+from wearsim.input.duty_log import COLUMNS as LOG_COLUMNS
 from wearsim.input.faults import Faults
-from wearsim.input.log_file import COLUMNS as LOG_COLUMNS
 from wearsim.input.mechanism_registry import MECHANISMS
 from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 from wearsim.quantities import Quantity, quantities

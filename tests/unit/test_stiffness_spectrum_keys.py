@@ -8,7 +8,7 @@ from wearsim.command.registry import tables_of
 from wearsim.errors import CaseError
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.sheet import stiffness_spectrum_sheet
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 from wearsim.quantities import quantities
 
 RADII = {"pinion_curvature_radius_mm": 10, "wheel_curvature_radius_mm": 12}

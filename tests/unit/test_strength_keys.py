@@ -12,7 +12,7 @@ from wearsim.errors import CaseError
 from wearsim.handbook.strength.figure import strength_figure
 from wearsim.handbook.strength.keys import StrengthTables
 from wearsim.handbook.strength.sheet import strength_sheet
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 from wearsim.quantities import quantities
 
 FOLDER = Path(__file__).parents[2] / "cases" / "sizing"

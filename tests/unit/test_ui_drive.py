@@ -14,8 +14,7 @@ from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
 from wearsim.input.document import CaseText
 from wearsim.page.case_file import new_file
-from wearsim.page.drive_answer import drive_headline, taken_inputs
-from wearsim.page.drive_panel import DrivePanel
+from wearsim.page.drive_panel import DrivePanel, drive_headline, taken_inputs
 from wearsim.page.edited_input import EditedInput, StaleError
 from wearsim.page.fields import form_fields, value_at
 from wearsim.page.form_panel import FormPanel

@@ -13,11 +13,11 @@ from wearsim.chain.selection import RatingFinding
 from wearsim.drive.drive_start import start_text
 from wearsim.drive.load_case import load_case, load_drive
 from wearsim.input.document import CaseText, is_whole_drive
+from wearsim.page.answer_panel import light, rating_list
 from wearsim.page.answers import edited_case
 from wearsim.page.case_file import example, example_titles
 from wearsim.page.comparison_panel import compared_rows
 from wearsim.page.edit_history import EditHistory
-from wearsim.page.rating_lights import light, rating_list
 from wearsim.page.toml_source import parsed_tables, with_value
 from wearsim.page.what_if import knobs
 from wearsim.result import Life, LowerBound

@@ -5,7 +5,7 @@ import pytest
 from wearsim.errors import CaseError
 from wearsim.handbook.wave_drive.keys import WaveDriveTables
 from wearsim.handbook.wave_drive.sheet import wave_drive_sheet
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 
 BASE = {
     "format_version": 1,

@@ -33,7 +33,7 @@ from scipy import stats
 
 import wearsim
 from wearsim.case.keys.study_tables import Distribution
-from wearsim.runner.distributions import quantile
+from wearsim.runner.scatter import quantile
 from wearsim.study.judge.model import judge_series
 from wearsim.study.judge.wear_series import WearReading, wear_series
 

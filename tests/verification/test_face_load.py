@@ -20,7 +20,7 @@ from wearsim.handbook.face_load.face_slices import (
 from wearsim.handbook.face_load.face_wear import WearingFace, opening_rate
 from wearsim.handbook.face_load.keys import FaceLoadTables
 from wearsim.handbook.face_load.model import gap_kinds, wear_rates
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 
 WIDTH, STIFFNESS, MEAN = 800.0, 1.5e4, 900.0
 """mm, N/mm2, N/mm."""

@@ -9,7 +9,7 @@ from wearsim.errors import GeometryError
 from wearsim.handbook.stiffness_spectrum.contact_number import contact_ratio
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.mesh_statics import deflection, hertz_constant, mesh_stiffness
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 
 CASE = {
     "format_version": 1,

@@ -21,7 +21,7 @@ from wearsim.geometry.gear.path_synthesis import PathSynthesis
 from wearsim.geometry.gear.plane_gearing import Contacts, PitchCircles
 from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.model import direction_fields, stress_fields
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 
 CIRCLES = PitchCircles(135.0, 1.5)
 STEEL = {"youngs_modulus_MPa": 2.1e5, "poissons_ratio": 0.3}

@@ -19,7 +19,7 @@ from wearsim.fatigue.heat_treatment import treatments
 from wearsim.handbook.strength.keys import StrengthTables
 from wearsim.handbook.strength.spectrum import LoadSpectrum, load_spectrum, regime_spectrum
 from wearsim.handbook.strength.tooth_stress import SpurMesh
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 
 FOLDER = Path(__file__).parents[2] / "cases" / "sizing"
 CASES = {name: FOLDER / f"strength-{name}.toml" for name in ("a-tempered", "b-carburised")}

@@ -12,7 +12,7 @@ import pytest
 from wearsim.errors import GeometryError
 from wearsim.handbook.wave_drive.keys import WaveDriveTables
 from wearsim.handbook.wave_drive.model import METHODS
-from wearsim.input.calculation_file import load_calculation
+from wearsim.input.document import load_calculation
 
 DRIVE = {
     "gear_ratio": 100,

@@ -4,8 +4,7 @@ from pathlib import Path
 
 from wearsim.case.keys import CaseTables
 from wearsim.contact.stop_limits import CHAIN_LIMITS
-from wearsim.input.case_record import CaseRecord
-from wearsim.input.faults import Faults
+from wearsim.input.faults import CaseRecord, Faults
 from wearsim.input.mechanism_registry import STRAND_FORMS, WRAP_FORMS
 
 

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 from wearsim.case.chain_record import ChainRecord
 from wearsim.catalogue.catalogues import Chain
-from wearsim.input.duty_log import LogBin, log_bins, merged
-from wearsim.input.log_file import LogFile, read_log
+from wearsim.input.duty_log import LogBin, LogFile, log_bins, merged, read_log
 
 BINS = [20, 8]
 """Bins of load and speed that a log is sorted into."""

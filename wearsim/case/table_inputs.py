@@ -12,7 +12,7 @@ from wearsim.case.model import FatigueInput, FilmInput, RunInput, WearInput
 from wearsim.catalogue.catalogues import Chain, materials, wear_conditions, wear_laws
 from wearsim.contact.hertz import contact_modulus
 from wearsim.fatigue.contact_fatigue import FlankMaterial
-from wearsim.input.case_record import CaseRecord
+from wearsim.input.faults import CaseRecord
 
 DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""

@@ -1,13 +1,12 @@
 """A drive with all of its sprockets, each of them with a case of its own."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from wearsim.case.input_lines import input_lines
+from wearsim.case.input_origins import input_lines
 from wearsim.case.model import Case
-from wearsim.drive.said_of_sprockets import said_of_sprockets
 from wearsim.drive.wheels import DRIVER, DriveWheel
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
@@ -15,6 +14,7 @@ from wearsim.input.document import GivenInput, read_document
 from wearsim.input.mechanism_registry import read_case
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.notebook import html_rows, one_line
+from wearsim.quantities import kind_of_text, with_ranges
 from wearsim.result.ends import SPROCKET
 
 
@@ -161,3 +161,38 @@ def with_one_wear(case: Case | DriveCase) -> Case | DriveCase:
     if faults:
         raise CaseError([replace(fault, file=case.name) for fault in faults])
     return case
+
+
+def said_of_sprockets(texts: Mapping[str, Sequence[str]], wheels: Sequence[DriveWheel]) -> tuple[str, ...]:
+    """Return texts about single sprockets, by their names, with those names but where it is all of them.
+
+    What cogs of one cassette differ in by numbers alone is one text, with the range of these numbers.
+    """
+    found: dict[str, list[str]] = {}
+    about: dict[str, int] = {}
+    for wheel in wheels:
+        for text, parts in _of_wheel([part for part in wheel.parts if part in texts], texts):
+            found.setdefault(text, []).append(_called(wheel, parts))
+            about[text] = about.get(text, 0) + len(parts)
+    return tuple(
+        text if about[text] == len(texts) else f"{', '.join(names)}: {text}" for text, names in found.items()
+    )
+
+
+def _of_wheel(parts: Sequence[str], texts: Mapping[str, Sequence[str]]) -> list[tuple[str, list[str]]]:
+    """Return what is said of a wheel, with the parts of it that it is said of."""
+    kinds: dict[tuple[str, int], list[tuple[str, str]]] = {}
+    for part in parts:
+        count: dict[str, int] = {}
+        for text in texts[part]:
+            kind = kind_of_text(text)
+            count[kind] = count.get(kind, 0) + 1
+            kinds.setdefault((kind, count[kind]), []).append((part, text))
+    return [(with_ranges([text for _, text in said]), [part for part, _ in said]) for said in kinds.values()]
+
+
+def _called(wheel: DriveWheel, parts: Sequence[str]) -> str:
+    """Return the name of a wheel, with the cogs of a cassette where it is not all of them."""
+    if len(parts) == len(wheel.parts):
+        return wheel.name
+    return f"{wheel.name} {', '.join(part.removeprefix(f'{wheel.name} ') for part in parts)}"

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.selection import RatingFinding, rating_warnings
-from wearsim.drive.drive_case import DriveCase
-from wearsim.drive.said_of_sprockets import said_of_sprockets
+from wearsim.drive.drive_case import DriveCase, said_of_sprockets
 from wearsim.errors import WearsimError
 from wearsim.notebook import html_rows, one_line
 from wearsim.result import Life, LowerBound, WearResult

@@ -1,13 +1,15 @@
 """Faults of an input file: where each key stands and what is wrong with it, in plain words."""
 
 import difflib
+import sys
 from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from wearsim.errors import CaseError, Fault
-from wearsim.input.table import CHOSEN, is_number, without_numbers
+from wearsim.input.table import CHOSEN, Table, is_number, without_numbers
 
 _MARK = "\x00wearsim\x00"
 _MAX_SHOWN = 20
@@ -203,3 +205,39 @@ def _line_of_header(text: str, name: str, which: int = 1) -> int:
     lines = enumerate(text.splitlines(), start=1)
     found = [number for number, line in lines if line.strip().startswith(f"[[{name}]]")]
     return found[which - 1] if which <= len(found) else 0
+
+
+class CaseRecord:
+    """What is given, found, taken and doubted while a case is being completed."""
+
+    def __init__(self, tables: Table, folder: Path, faults: Faults) -> None:
+        self.folder = folder
+        self.faults = faults
+        self.inputs: dict[str, Any] = tables.model_dump(exclude_none=True)
+        self.files: list[Path] = []
+        self.assumptions: list[str] = []
+        self.warnings: list[str] = []
+
+    def take(self, key: str, value: float | int | str | list[int], why: str) -> None:
+        """Record a default that the case takes."""
+        place = self.inputs
+        *tables, last = key.split(".")
+        for table in tables:
+            place = place.setdefault(table, {})
+        place[last] = value
+        shown = f"{value:.6g}" if isinstance(value, float) else value
+        self.assumptions.append(f"{key} = {shown} ({why})")
+
+    def path(self, name: str) -> Path:
+        """Return the place of a file that the case names."""
+        path = self.folder / name
+        self.files.append(path)
+        return path
+
+    def texts(self) -> dict[str, str]:
+        """Return the text of the files by their names; the cases of a study share it."""
+        found = {}
+        for path in self.files:
+            text = path.read_text(encoding="utf-8-sig", errors="surrogateescape")
+            found[path.name] = sys.intern(text)
+        return found

@@ -7,27 +7,6 @@ from typing import TYPE_CHECKING
 
 from wearsim.kernels.compiled import kernel
 from wearsim.kernels.flank_geometry import add_second_difference
-from wearsim.kernels.gear_rows import (
-    ARC,
-    CURVATURE,
-    LAST_GAP,
-    LAST_LEVER,
-    LEAST_CURVATURE,
-    LEVER,
-    MATE_ARC,
-    MATE_DEPTH,
-    NEXT_GAP,
-    NEXT_LEVER,
-    NORMAL_X,
-    NORMAL_Y,
-    PITCH,
-    PLACE,
-    SHARE,
-    SLIP,
-    SPEED,
-    STIFFNESS,
-    TORQUE,
-)
 from wearsim.kernels.signatures import CONTACT, TABLE, VECTOR, float64, int64
 
 if TYPE_CHECKING:
@@ -139,3 +118,26 @@ def gear_pair_contact(
             torque / stiffness, own, lever, next_gap, columns[NEXT_LEVER, j], last_gap, columns[LAST_LEVER, j]
         )
         load[j] = stiffness * max(0.0, turn * lever - own)
+
+
+(
+    ARC,
+    MATE_ARC,
+    CURVATURE,
+    SLIP,
+    SPEED,
+    NORMAL_X,
+    NORMAL_Y,
+    MATE_DEPTH,
+    SHARE,
+    PLACE,
+    NEXT_GAP,
+    LAST_GAP,
+    LEVER,
+    NEXT_LEVER,
+    LAST_LEVER,
+) = range(15)
+COLUMNS = 15
+
+TORQUE, STIFFNESS, PITCH, LEAST_CURVATURE = range(4)
+"""The torque and the stiffness of a pair of teeth are those per face width."""

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from wearsim.catalogue.catalogues import Lubricant, environments, lubricants, wear_conditions
-from wearsim.input.case_record import CaseRecord
+from wearsim.input.faults import CaseRecord
 from wearsim.lubrication.keys import (
     AT,
     FADES,

@@ -1,13 +1,17 @@
 """The answer: faults, life, margins, pictures, and what all of it rests on."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
 
 from nicegui import ui
 
-from wearsim.page.answers import Pictures
+from wearsim.case.model import Case
+from wearsim.chain.selection import RatingFinding
+from wearsim.page.answers import Pictures, edited_case, estimate, is_slow, pictures
 from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, SketchView
-from wearsim.page.rating_lights import rating_list
+from wearsim.page.edited_input import EditedInput
+from wearsim.page.header import Header
 from wearsim.page.text_elements import (
     assumption_list,
     heading,
@@ -16,6 +20,7 @@ from wearsim.page.text_elements import (
     used_part,
     warning_list,
 )
+from wearsim.quantities import grouped
 from wearsim.report.answer import (
     BAND,
     LIMITS,
@@ -28,9 +33,11 @@ from wearsim.report.answer import (
 )
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
+from wearsim.report.html.run_charts import tooth_load_chart
 from wearsim.report.text_lines import stated_and_defaults
-from wearsim.result import Life, WearResult
+from wearsim.result import Life, LowerBound, WearResult
 from wearsim.result.lives import hours
+from wearsim.simulation import simulate
 
 
 class AnswerPanel:
@@ -158,3 +165,74 @@ class AnswerPanel:
                 for one in found:
                     text_element("dt", f"{one.name}{' (ended the life)' if one.ended else ''}")
                     used_part(one.name, one.used, f"{one.value} of {one.limit} {one.unit}")
+
+
+_NEAR = 0.9
+"""Part of a limit from which a rating counts as near it."""
+
+
+def light(one: RatingFinding) -> str:
+    """Return whether a rating is within, near or outside its limit.
+
+    Examples
+    --------
+    >>> light(RatingFinding("power", 4.3, 4.6, "kW", "ISO 10823"))
+    'near'
+    """
+    if not one.ok:
+        return "outside"
+    return "near" if one.used >= _NEAR else "within"
+
+
+def rating_list(ratings: Iterable[RatingFinding]) -> None:
+    """Add every rating with its light, how much of its limit is used, and both numbers."""
+    heading("Ratings")
+    with ui.element("dl").classes("ws-margins"):
+        for one in ratings:
+            text_element("dt", one.name)
+            sign = "≥" if one.at_least else "≤"
+            text = f"{grouped(one.value)} {sign} {grouped(one.limit)} {one.unit}".rstrip()
+            with used_part(one.name, one.used, text):
+                ui.label(light(one)).classes("ws-light").props(f"data-light={light(one)}")
+
+
+class CaseAnswer:
+    """The answer in the place where it is made."""
+
+    def __init__(
+        self, header: Header, on_sound: Callable[[Mapping[str, Any]], None], palette: Palette
+    ) -> None:
+        self._header, self._on_sound = header, on_sound
+        self.panel = AnswerPanel(palette)
+        self.lives: Mapping[str, Life | LowerBound] = {}
+
+    async def find(self, edited: EditedInput) -> dict[str, tuple[Case, WearResult]]:
+        """Find the answer and show it step by step; return case and result of the only wheel."""
+        case = await edited.step(lambda: edited_case(edited.source, edited.file))
+        if is_slow(case):
+            await self._show_first(edited, case)
+        edited.check()
+        result = await edited.step(lambda: simulate(case, edited.watch))
+        self.lives = {"life": result.life}
+        self._show_sound(case)
+        self._header.show_life(headline(result))
+        self._header.show_state("drawing", "up to date, drawing")
+        self.panel.show_life(result)
+        if not is_slow(case):
+            self.panel.show_loads(None)
+        self.panel.show_pictures(await edited.step(lambda: pictures(case, result)))
+        self._header.show_state("current", "up to date")
+        return {case.name: (case, result)}
+
+    async def _show_first(self, edited: EditedInput, case: Case) -> None:
+        """Show what is known before a life that takes long: loads, and about how long it is."""
+        loads = await edited.step(lambda: tooth_load_chart(case))
+        self._show_sound(case)
+        self.panel.show_loads(loads)
+        rough = await edited.step(lambda: estimate(edited.source, case, edited.check))
+        if rough is not None:
+            self._header.show_life(f"about {headline(rough)}")
+            self._header.show_state("estimate", "first estimate, computing")
+
+    def _show_sound(self, case: Case) -> None:
+        self._on_sound({**case.inputs, "title": case.title})

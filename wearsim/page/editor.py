@@ -10,13 +10,13 @@ from nicegui import background_tasks, ui
 from wearsim.case.model import Case
 from wearsim.errors import Fault, WearsimError
 from wearsim.input.document import CaseText, is_whole_drive
+from wearsim.page.answer_panel import CaseAnswer
 from wearsim.page.answers import error_faults
-from wearsim.page.case_answer import CaseAnswer
 from wearsim.page.case_file import CaseFile
 from wearsim.page.chart_colours import palettes
 from wearsim.page.chart_view import style
 from wearsim.page.comparison_panel import Comparison
-from wearsim.page.drive_answer import DriveAnswer
+from wearsim.page.drive_panel import DriveAnswer
 from wearsim.page.edit_history import EditHistory
 from wearsim.page.edited_input import EditedInput, StaleError
 from wearsim.page.fields import Field

@@ -13,9 +13,8 @@ from wearsim.report.text_lines import counted_assumptions, numbered_assumptions,
 from wearsim.result import Life, LimitState, LowerBound, WearResult
 from wearsim.result.ends import PartEnd, before_wear, end_rows, first_hours, wear_only
 from wearsim.result.events import Event, event_rows
-from wearsim.result.lives import hours
+from wearsim.result.lives import hours, service_measures
 from wearsim.result.second_opinions import SecondOpinions, practice_text, rule_rows
-from wearsim.result.service import service_measures
 from wearsim.wear.accuracy import LEAST_ORDER, MAX_ORDER, GridStudy
 
 BAND, LIMITS = "Band", "Limits"

@@ -10,7 +10,7 @@ import numpy as np
 from wearsim.geometry.profile_points import Vector
 from wearsim.quantities import grouped
 from wearsim.result.ends import CHAIN, JOINT_WEAR, TOOTH_WEAR, PartEnd
-from wearsim.result.service import service_measures
+from wearsim.result.lives import service_measures
 
 BEDDING_IN_HOURS = 20.0
 """Running time in which a new chain beds in by up to 0.1 %, which no life counts (Tsubaki)."""

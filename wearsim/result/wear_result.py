@@ -19,9 +19,8 @@ from wearsim.notebook import html_rows, one_line
 from wearsim.result.ends import PITTING, LifeBand, PartEnd, before_wear, ends_json, first_end_keys, part_ends
 from wearsim.result.events import Event, drive_events, events_json
 from wearsim.result.folder import SCHEMA_VERSION, read_result, write_result
-from wearsim.result.lives import Life, LimitState, LowerBound, first_life, life_keys
+from wearsim.result.lives import Life, LimitState, LowerBound, first_life, life_keys, service_keys
 from wearsim.result.second_opinions import SecondOpinions, opinions_json
-from wearsim.result.service import service_keys
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -6,8 +6,7 @@ from wearsim.case.keys.study_tables import Distribution
 from wearsim.case.model import Case
 from wearsim.errors import CaseError, Fault
 from wearsim.result import Life, WearResult
-from wearsim.runner.distributions import quantile
-from wearsim.runner.scatter import coefficient_key
+from wearsim.runner.scatter import coefficient_key, quantile
 
 
 def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]) -> list[float]:

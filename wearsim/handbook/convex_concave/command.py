@@ -19,7 +19,7 @@ def convex_concave(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """
     from wearsim.handbook.convex_concave.keys import ConvexConcaveTables
     from wearsim.handbook.convex_concave.sheet import convex_concave_sheet
-    from wearsim.input.calculation_file import load_calculation
+    from wearsim.input.document import load_calculation
 
     tables = load_calculation(case, ConvexConcaveTables, settings)
     return convex_concave_sheet(tables.title, tables.layout())

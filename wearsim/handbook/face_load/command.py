@@ -18,7 +18,7 @@ def face_load(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """
     from wearsim.handbook.face_load.keys import FaceLoadTables
     from wearsim.handbook.face_load.sheet import face_load_sheet
-    from wearsim.input.calculation_file import defaults_taken, load_calculation
+    from wearsim.input.document import defaults_taken, load_calculation
 
     tables = load_calculation(case, FaceLoadTables, settings)
     return face_load_sheet(tables.title, tables.factors(), defaults_taken(tables))

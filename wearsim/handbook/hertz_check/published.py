@@ -7,9 +7,8 @@ import numpy as np
 
 from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.hertz_check.keys import HertzCheckTables
-from wearsim.input.calculation_file import checked
 from wearsim.input.csv_tables import read_columns
-from wearsim.input.document import CaseSource, read_document
+from wearsim.input.document import CaseSource, checked, read_document
 
 _KEY = "finite_elements.axis_file"
 

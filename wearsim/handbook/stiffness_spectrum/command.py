@@ -19,7 +19,7 @@ def stiffness_spectrum(case: Path, settings: tuple[str, ...]) -> "CalculationShe
     """
     from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
     from wearsim.handbook.stiffness_spectrum.sheet import stiffness_spectrum_sheet
-    from wearsim.input.calculation_file import load_calculation
+    from wearsim.input.document import load_calculation
 
     tables = load_calculation(case, StiffnessSpectrumTables, settings)
     return stiffness_spectrum_sheet(tables, tables.answer())

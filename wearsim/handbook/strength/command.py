@@ -18,7 +18,7 @@ def strength(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """
     from wearsim.handbook.strength.keys import StrengthTables
     from wearsim.handbook.strength.sheet import strength_sheet
-    from wearsim.input.calculation_file import load_calculation
+    from wearsim.input.document import load_calculation
 
     tables = load_calculation(case, StrengthTables, settings)
     return strength_sheet(tables, tables.strength())

@@ -19,7 +19,7 @@ def synthesise(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """
     from wearsim.handbook.synthesise.keys import SynthesisTables
     from wearsim.handbook.synthesise.sheet import synthesis_sheet
-    from wearsim.input.calculation_file import load_calculation
+    from wearsim.input.document import load_calculation
 
     tables = load_calculation(case, SynthesisTables, settings)
     pair = tables.pair()

@@ -18,7 +18,7 @@ def wave_drive(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """
     from wearsim.handbook.wave_drive.keys import WaveDriveTables
     from wearsim.handbook.wave_drive.sheet import wave_drive_sheet
-    from wearsim.input.calculation_file import defaults_taken, load_calculation
+    from wearsim.input.document import defaults_taken, load_calculation
 
     tables = load_calculation(case, WaveDriveTables, settings)
     return wave_drive_sheet(tables.title, tables.diameters(), defaults_taken(tables))

@@ -20,9 +20,8 @@ from wearsim.errors import GeometryError
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.mesh import Mesh, ToothPair, check_contact_ratio
 from wearsim.geometry.gear.plane_gearing import PitchCircles
-from wearsim.input.calculation_file import checked
-from wearsim.input.case_record import CaseRecord
-from wearsim.input.document import Document
+from wearsim.input.document import Document, checked
+from wearsim.input.faults import CaseRecord
 from wearsim.lubrication.read import lubrication_input
 from wearsim.mechanisms.gear_pair.drive import GearDrive
 from wearsim.mechanisms.gear_pair.keys import GearTable, GearTables

@@ -10,8 +10,7 @@ from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.hertz import half_width
 from wearsim.geometry.gear.mesh import Mesh, ToothPair
 from wearsim.geometry.profile_points import Profile, Vector
-from wearsim.kernels.gear_pair import gear_pair_contact
-from wearsim.kernels.gear_rows import COLUMNS
+from wearsim.kernels.gear_pair import COLUMNS, gear_pair_contact
 
 _LEAST_CURVATURE = 0.04
 """Of the least relative curvature of the new flanks: where a worn step leaves a hollow of less, the

@@ -16,7 +16,7 @@ from wearsim.geometry.gear.mesh import ToothPair
 from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Scene
 from wearsim.geometry.wheel_outline import WheelShape
-from wearsim.kernels.gear_rows import MATE_DEPTH
+from wearsim.kernels.gear_pair import MATE_DEPTH
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,8 +6,8 @@ from functools import partial
 from wearsim.case.chain_case import read_chain_case
 from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
-from wearsim.case.hub_input import hub_input
 from wearsim.case.model import Case, LoadBlock, WearInput, heaviest_block, on_flank
+from wearsim.case.sprocket_inputs import evolute_tooth, hub_input, points_tooth
 from wearsim.case.table_inputs import (
     FLANK_NODES,
     TOLERANCE,
@@ -16,7 +16,6 @@ from wearsim.case.table_inputs import (
     slip_fraction,
     within_strength,
 )
-from wearsim.case.working_flank import evolute_tooth, points_tooth
 from wearsim.catalogue.catalogues import Chain
 from wearsim.geometry.blank import tooth_space
 from wearsim.input.document import Document

@@ -1,5 +1,6 @@
 """A sprocket on a straight strand: the tooth, its load, and what the rest of wearsim asks of it."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -11,9 +12,20 @@ from wearsim.contact.engagement import Mechanism
 from wearsim.geometry.blank import blank_area, tooth_space
 from wearsim.geometry.hub import NO_HUB, Hub
 from wearsim.geometry.profile_points import Profile, Vector
-from wearsim.geometry.scene import Scene, Stroke
+from wearsim.geometry.scene import (
+    Circle,
+    Label,
+    Scene,
+    Stroke,
+    around,
+    letter_height,
+    line,
+    straight_arrow,
+    turn_arrow,
+)
 from wearsim.geometry.tooth import Tooth
-from wearsim.geometry.wheel_outline import WheelShape
+from wearsim.geometry.wheel_outline import ToothSpace, WheelShape, worn_alike, worn_space
+from wearsim.quantities import grouped
 
 _FINE = 2e-4
 """Deviation of the wheel's outline around a flank, as a part of the pitch."""
@@ -114,15 +126,11 @@ class StrandDrive(Drive):
 
     def scene(self, engaged_every: int) -> Scene:
         """Return the sprocket on its strand."""
-        from wearsim.mechanisms.strand.scene import strand_scene
-
         (wheel,) = self.wheels(engaged_every)
         return strand_scene(wheel, self.tooth, self.chain.pitch, self.pull, engaged_every)
 
     def wheels(self, engaged_every: int, last: Mapping[str, Vector] | None = None) -> tuple[WheelShape, ...]:
         """Return the sprocket, new and worn."""
-        from wearsim.mechanisms.strand.scene import strand_wheel
-
         return (strand_wheel(self.tooth, self.face_width, self.hub, engaged_every, last),)
 
     def body(self) -> tuple[Stroke, ...]:
@@ -157,3 +165,53 @@ def _pressure_angle(flank: Profile, height: float, radius: float) -> Vector:
         distance = np.sqrt(centre_x**2 + centre_y**2 - height**2)
     turn = np.arctan2(height, -distance) - np.arctan2(centre_y, centre_x)
     return np.asarray(np.arctan2(flank.normal_y, flank.normal_x) + turn)
+
+
+def strand_wheel(
+    tooth: Tooth, face_width: float, hub: Hub, engaged_every: int, last: Mapping[str, Vector] | None
+) -> WheelShape:
+    """Return the sprocket, worn to the last snapshot of a run where there is one."""
+    new = tooth_space(tooth)
+    every = math.gcd(tooth.teeth, engaged_every)
+    worn: tuple[ToothSpace, ...] = ()
+    if last is not None:
+        gone = worn_space(new, np.column_stack([last["x_mm"], last["y_mm"]]))
+        worn = tuple(new if number % every else gone for number in range(tooth.teeth))
+    notes = (
+        "seat and tip are arcs, the tip about the axis; back flank and seat do not wear",
+        worn_alike(every),
+        *hub.notes,
+    )
+    radius = tooth.strand.centrode_radius
+    return WheelShape("sprocket", (new,) * tooth.teeth, worn, radius, face_width, notes, hub=hub)
+
+
+def strand_scene(wheel: WheelShape, tooth: Tooth, pitch: float, pull: float, engaged_every: int) -> Scene:
+    """Return the sprocket with its straight strand."""
+    strand, tip = tooth.strand, tooth.tip_radius
+    radius = strand.roller_radius
+    reach = math.ceil(1.35 * tip / pitch) * pitch
+    rollers = np.arange(-reach, 1.5 * reach, pitch)
+    y, above = strand.height, strand.height + 2.2 * radius
+    box = around([((0.0, 0.0), tip), ((-reach, y), radius), ((reach, y), radius), ((0.0, y), 2.6 * radius)])
+    return Scene(
+        box,
+        (
+            wheel.sketched("worn"),
+            Circle("pitch", (0.0, 0.0), strand.centrode_radius),
+            line("chain", [(-reach, y), (reach, y)]),
+            *(Circle("roller", (x, y), radius) for x in rollers.tolist() if x <= reach + 0.1 * pitch),
+            *turn_arrow((0.0, 0.0), 0.3 * tip, -1),
+            *straight_arrow((0.45 * reach, above), (0.95 * reach, above), radius),
+            Label("text", "strand", (0.7 * reach, y + 2.8 * radius), letter_height(box)),
+        ),
+        f"A sprocket of {tooth.teeth} teeth to scale under the straight strand that it moves, pitch "
+        f"{pitch:g} mm, {strand.offset:.4g} mm inside its centrode.",
+        (
+            f"{tooth.teeth} teeth, pitch {pitch:g} mm, centrode radius {strand.centrode_radius:.2f} mm, line "
+            f"of roller centres {strand.offset:.4g} mm inside it",
+            f"a roller in every {'gap' if engaged_every == 1 else f'{engaged_every}. gap'}; the strand is "
+            "straight and guided: no wrap, and the second sprocket has no part in it",
+            f"pull {grouped(pull)} N at most",
+        ),
+    ).with_scale()

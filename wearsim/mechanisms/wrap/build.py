@@ -6,9 +6,9 @@ from functools import partial
 from wearsim.case.chain_case import read_chain_case
 from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
-from wearsim.case.hub_input import hub_input
 from wearsim.case.keys import DriveTable
 from wearsim.case.model import Case, WearInput, heaviest_block
+from wearsim.case.sprocket_inputs import hub_input
 from wearsim.case.table_inputs import chain_pull, chain_speed, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_length import belt_links, even_links, odd_links_warning

@@ -8,7 +8,7 @@ import numpy as np
 
 from wearsim.case.chain_record import ChainRecord
 from wearsim.case.keys import SprocketTable
-from wearsim.case.working_flank import POINTS_NOISE, evolute_tooth
+from wearsim.case.sprocket_inputs import POINTS_NOISE, evolute_tooth
 from wearsim.catalogue.catalogues import Chain, chains
 from wearsim.errors import GeometryError
 from wearsim.geometry.forms import BETWEEN_FORMS, TOOTH_FORMS

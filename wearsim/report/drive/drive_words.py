@@ -5,10 +5,10 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.chain.selection import deciding, rated_for_hours
+from wearsim.drive.drive_case import said_of_sprockets
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan, planned_events
 from wearsim.drive.plan import Stop
-from wearsim.drive.said_of_sprockets import said_of_sprockets
 from wearsim.quantities import grouped
 from wearsim.report.answer import (
     JUMPING,
@@ -27,9 +27,8 @@ from wearsim.report.text_lines import listed, stated_and_defaults
 from wearsim.result import Life, LowerBound, WearResult, life_keys
 from wearsim.result.ends import CHAIN, before_wear, ends_json, first_end_keys
 from wearsim.result.events import events_json
-from wearsim.result.lives import hours
+from wearsim.result.lives import hours, service_keys, service_measures
 from wearsim.result.second_opinions import opinions_json, practice_text
-from wearsim.result.service import service_keys, service_measures
 
 Lives = Mapping[str, Life | LowerBound]
 

@@ -9,8 +9,7 @@ from markupsafe import Markup
 from wearsim.drive.maintenance import DrivePlan
 from wearsim.geometry.scene import round_length
 from wearsim.quantities import grouped
-from wearsim.result.lives import hours
-from wearsim.result.service import service_measures
+from wearsim.result.lives import hours, service_measures
 
 _ROW, _BAR, _AXIS = 29, 9, 36
 """Heights of a row, of the bar in it and of the axis [px]."""

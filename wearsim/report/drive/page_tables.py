@@ -17,8 +17,7 @@ from wearsim.quantities import grouped
 from wearsim.report.drive.drive_words import part_ending
 from wearsim.report.drive.layout import layout_json
 from wearsim.result import Life, LowerBound
-from wearsim.result.lives import hours
-from wearsim.result.service import service_measures
+from wearsim.result.lives import hours, service_measures
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,7 @@ from wearsim.report.drive.plan_words import rule_text
 from wearsim.report.text_lines import row, table_lines
 from wearsim.result import Life, LowerBound, life_keys
 from wearsim.result.ends import CHAIN, before_wear
-from wearsim.result.lives import hours
-from wearsim.result.service import service_measures
+from wearsim.result.lives import hours, service_measures
 
 _PER = 1000.0
 """Hours for which parts, stops and cost are given."""

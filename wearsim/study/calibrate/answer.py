@@ -13,7 +13,7 @@ from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.extras import check_installed
 from wearsim.geometry.measured.registration import Freedom
 from wearsim.quantities import grouped
-from wearsim.readings.readings_file import readings_file
+from wearsim.readings.dated_rows import readings_file
 from wearsim.report.public_answer import DrawnAnswer, table_of
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
 from wearsim.study.calibrate.model import calibrate as fitted

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.errors import Allowed, Range, check_ranges
-from wearsim.readings.readings_file import readings_file
+from wearsim.readings.dated_rows import readings_file
 from wearsim.report.public_answer import DrawnAnswer
 from wearsim.runner.in_threads import Progress, silent
 from wearsim.study.judge.model import PARTICLES, Judgement, judge_series

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, overload
 from wearsim.case.model import Case
 from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.errors import Allowed, Range, check_ranges
-from wearsim.readings.readings_file import readings_file
+from wearsim.readings.dated_rows import readings_file
 from wearsim.report.public_answer import Answer, table_of
 from wearsim.result import Life, LowerBound
 from wearsim.result.lives import hours as in_hours

@@ -8,8 +8,7 @@ from wearsim.quantities import grouped
 from wearsim.report.answer import service_text
 from wearsim.report.text_lines import numbered_assumptions, row
 from wearsim.result import Life, life_keys
-from wearsim.result.lives import hours
-from wearsim.result.service import service_keys
+from wearsim.result.lives import hours, service_keys
 from wearsim.study.remaining.model import RemainingLife
 
 _WORDS = {

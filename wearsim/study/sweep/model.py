@@ -11,8 +11,15 @@ from pydantic import ValidationError
 
 from wearsim.case.keys import CaseTables, PlacedSprocketTable
 from wearsim.errors import CaseError, Fault
-from wearsim.input.calculation_file import calculation_tables
-from wearsim.input.document import CaseSource, Document, GivenInput, check_command, read_document, retitled
+from wearsim.input.document import (
+    CaseSource,
+    Document,
+    GivenInput,
+    calculation_tables,
+    check_command,
+    read_document,
+    retitled,
+)
 from wearsim.input.faults import validation_faults
 from wearsim.input.keys import schema_of, whole_number_keys
 from wearsim.input.table import Table, without_numbers

@@ -13,7 +13,7 @@ from wearsim.quantities import grouped
 from wearsim.report.public_answer import DrawnAnswer, table_of
 from wearsim.runner.in_threads import SEED, THREADS, Progress, run, silent
 from wearsim.runner.run_study import failures
-from wearsim.runner.samples import METHODS, Method
+from wearsim.runner.scatter import METHODS, Method
 from wearsim.study.uncertainty.model import load_uncertainty
 from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
 from wearsim.study.uncertainty.sheet import uncertainty_json, uncertainty_text, write_uncertainty

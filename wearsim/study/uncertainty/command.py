@@ -21,7 +21,7 @@ from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import exit_code, run
 
 if TYPE_CHECKING:
-    from wearsim.runner.samples import Method
+    from wearsim.runner.scatter import Method
     from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
 
 
