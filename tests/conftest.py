@@ -1,6 +1,7 @@
 """What tests of all folders share, and the pages that a run can write from their rows."""
 
 import importlib
+import os
 import runpy
 import signal
 import subprocess
@@ -10,6 +11,9 @@ from pathlib import Path
 import pytest
 
 from wearsim.input.faults import known_keys
+
+os.environ["WEARSIM_RUNS"] = ""
+"""Commands under test run what they are asked for, and leave nothing in the cache of the user."""
 
 DOCS, RESEARCH = (Path(__file__).parents[1] / name for name in ("docs", "research"))
 PAGES = {

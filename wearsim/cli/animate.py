@@ -6,7 +6,15 @@ import click
 
 from wearsim.command.cases_and_runs import loaded_sources, one_sprocket
 from wearsim.command.complete import RunPath
-from wearsim.command.options import common_options, finite, overrides, sprocket_option, working, worn
+from wearsim.command.options import (
+    common_options,
+    finite,
+    keeping_runs,
+    overrides,
+    sprocket_option,
+    working,
+    worn,
+)
 from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import OutputError
 
@@ -52,6 +60,7 @@ _SHORTEST_S = 0.02
 )
 @click.option("--force", is_flag=True, help="Replace an existing file.")
 @sprocket_option
+@keeping_runs
 @overrides
 @common_options
 def animate(

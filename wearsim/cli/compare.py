@@ -11,6 +11,7 @@ from wearsim.command.complete import RunPath
 from wearsim.command.options import (
     SOME_FAILED,
     common_options,
+    keeping_runs,
     overrides,
     print_json,
     show,
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 @workbook_option
 @click.option("--force", is_flag=True, help="Replace an existing folder or workbook.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object per case.")
+@keeping_runs
 @overrides
 @common_options
 def compare(

@@ -49,6 +49,7 @@ def installation_checks(case: Path | None) -> list[InstallationCheck]:
         InstallationCheck("platform", "ok", f"{platform.system()} {platform.release()} {platform.machine()}"),
         *(_version(known) for known in libraries() if not known.extra),
         _guarded("cache of kernels", _cache),
+        _guarded("kept runs", _kept_runs),
         _guarded("self-test", lambda: _self_test(case)),
         _guarded("threads", _threads),
         _temporary_folder(),
@@ -111,6 +112,16 @@ def _cache() -> InstallationCheck:
         advice = "lost with the temporary folder: make the cache folder of your home writable"
         return InstallationCheck(name, "note", found, advice)
     return InstallationCheck(name, "ok", found)
+
+
+def _kept_runs() -> InstallationCheck:
+    from wearsim.result.kept_runs import FOLDER, kept_files, runs_folder
+
+    name, folder = "kept runs", runs_folder()
+    if folder is None:
+        return InstallationCheck(name, "ok", f"none, as {FOLDER} is empty")
+    sizes = [status.st_size for _, status in kept_files(folder)]
+    return InstallationCheck(name, "ok", f"{folder}: {len(sizes)} files, {sum(sizes) / 1e6:.1f} MB")
 
 
 def _self_test(case: Path | None) -> InstallationCheck:

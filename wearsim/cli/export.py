@@ -8,7 +8,15 @@ import click
 from wearsim.cad import DRAWINGS, STATES, WHEELS, format_by_ending
 from wearsim.command.cases_and_runs import is_drive, loaded_sources, one_sprocket
 from wearsim.command.complete import RunPath
-from wearsim.command.options import common_options, overrides, sprocket_option, warn, working, worn
+from wearsim.command.options import (
+    common_options,
+    keeping_runs,
+    overrides,
+    sprocket_option,
+    warn,
+    working,
+    worn,
+)
 from wearsim.command.single_file import check_place, format_of, write_content
 from wearsim.errors import OutputError
 from wearsim.quantities import either
@@ -48,6 +56,7 @@ _GAUGES = tuple(DRAWINGS)
 )
 @click.option("--force", is_flag=True, help="Replace existing files.")
 @sprocket_option
+@keeping_runs
 @overrides
 @common_options
 def export(

@@ -15,6 +15,7 @@ from wearsim.command.options import (
     error_json,
     exit_code,
     finite,
+    keeping_runs,
     load_cases,
     overrides,
     print_json,
@@ -27,8 +28,6 @@ from wearsim.command.options import (
 )
 from wearsim.command.single_file import check_workbook, workbook_option, write_workbook
 from wearsim.errors import WearsimError
-
-"""Name of the only one of a case."""
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -75,6 +74,7 @@ if TYPE_CHECKING:
     "--explain", is_flag=True, help="Print every assumption and default, and the source of the band."
 )
 @click.option("--strict", is_flag=True, help="Exit with code 4 if a case has a warning.")
+@keeping_runs
 @overrides
 @common_options
 def life(

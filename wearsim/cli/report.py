@@ -9,7 +9,14 @@ import click
 
 from wearsim.command.cases_and_runs import is_drive, loaded_sources, results_of
 from wearsim.command.complete import RunPath
-from wearsim.command.options import SOME_FAILED, common_options, overrides, show_failed_parts, warn
+from wearsim.command.options import (
+    SOME_FAILED,
+    common_options,
+    keeping_runs,
+    overrides,
+    show_failed_parts,
+    warn,
+)
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -38,6 +45,7 @@ if TYPE_CHECKING:
 @click.option("--drawing", default="", metavar="TEXT", help="Drawing number, printed on the sheet.")
 @click.option("--author", default="", metavar="TEXT", help="Author, printed on the sheet.")
 @click.option("--force", is_flag=True, help="Replace an existing folder or file.")
+@keeping_runs
 @overrides
 @common_options
 def report(

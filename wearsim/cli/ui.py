@@ -7,7 +7,7 @@ import click
 
 from wearsim.catalogue.shipped_cases import place_of_case
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, overrides, warn
+from wearsim.command.options import common_options, keeping_runs, overrides, warn
 from wearsim.errors import OutputError
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     help="Port on 127.0.0.1; default: any free port.",
 )
 @click.option("--no-browser", is_flag=True, help="Only print the address; do not open a browser.")
+@keeping_runs
 @overrides
 @common_options
 def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]) -> None:

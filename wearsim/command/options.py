@@ -60,6 +60,26 @@ def overrides(function: Function) -> Function:
     )(function)
 
 
+def keeping_runs(function: Function) -> Function:
+    """Add ``--fresh`` to a command that runs cases, whose runs are kept for the next one."""
+
+    def _keep(context: click.Context, parameter: click.Parameter, fresh: bool) -> None:
+        if fresh or context.resilient_parsing:
+            return
+        from wearsim.result.kept_runs import keep_runs, runs_folder
+
+        keep_runs(runs_folder())
+        context.call_on_close(lambda: keep_runs(None))
+
+    return click.option(
+        "--fresh",
+        is_flag=True,
+        expose_value=False,
+        callback=_keep,
+        help="Run every case anew, even if an earlier command has run the same.",
+    )(function)
+
+
 def sprocket_option(function: Function) -> Function:
     """Add ``--sprocket``, for commands that are about one sprocket."""
     return click.option("--sprocket", metavar="NAME", help="Name of the sprocket, if the CASE has several.")(

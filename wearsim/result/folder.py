@@ -38,10 +38,7 @@ def write_result(
     import pandas as pd
 
     with new_folder(folder, force) as place:
-        lives = {name: asdict(result[name]) for name in ("life", "life_low", "life_high")}
-        parts = {name: asdict(life) for name, life in result["parts"].items()}
-        bands = {name: [asdict(life) for life in band] for name, band in result["bands"].items()}
-        _write_json(place / "result.json", {**summary, "lives": lives, "parts": parts, "bands": bands})
+        _write_json(place / "result.json", stored_result(result, summary))
         _write_json(place / "environment.json", result["environment"])
         (place / "case.lock.toml").write_text(_lock(result["case"], result["inputs"]), encoding="utf-8")
         for name, text in result["input_files"].items():
@@ -52,6 +49,16 @@ def write_result(
             pd.DataFrame(columns).to_csv(place / f"{name}.csv", index=False)
             if parquet:
                 write_parquet(place / f"{name}.parquet", columns)
+
+
+def stored_result(result: Mapping[str, Any], summary: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the fields of a result, but for its tables and inputs, as plain values."""
+    return {
+        **summary,
+        "lives": {name: asdict(result[name]) for name in ("life", "life_low", "life_high")},
+        "parts": {name: asdict(life) for name, life in result["parts"].items()},
+        "bands": {name: [asdict(life) for life in band] for name, band in result["bands"].items()},
+    }
 
 
 def pyarrow() -> Any:
@@ -139,6 +146,24 @@ def _stored(folder: Path) -> dict[str, Any]:
         raise ValueError(f"case.lock.toml is not readable TOML: {error}") from None
     inputs = with_files(lock, "")
     mechanism = mechanism_of(inputs)
+    files = {
+        name: (folder / _INPUTS / name).read_text(encoding="utf-8", errors="surrogateescape")
+        for name in _named(inputs)
+    }
+    history = _read_columns(folder / "history.csv", mechanism.history)
+    flank = _read_columns(folder / "flank.csv", mechanism.flank)
+    found = fields_of_result(stored, inputs, files, history, flank)
+    return {**found, "environment": _json(folder / "environment.json")}
+
+
+def fields_of_result(
+    stored: Mapping[str, Any],
+    inputs: Mapping[str, Any],
+    input_files: Mapping[str, str],
+    history: Mapping[str, Vector],
+    flank: Mapping[str, Vector],
+) -> dict[str, Any]:
+    """Return the fields of a result from its plain values, but for its environment."""
     same = (
         "case",
         "title",
@@ -170,13 +195,9 @@ def _stored(folder: Path) -> dict[str, Any]:
         "assumptions": tuple(stored["assumptions"]),
         "warnings": tuple(stored["warnings"]),
         "inputs": inputs,
-        "input_files": {
-            name: (folder / _INPUTS / name).read_text(encoding="utf-8", errors="surrogateescape")
-            for name in _named(inputs)
-        },
-        "history_columns": _read_columns(folder / "history.csv", mechanism.history),
-        "flank_columns": _read_columns(folder / "flank.csv", mechanism.flank),
-        "environment": _json(folder / "environment.json"),
+        "input_files": input_files,
+        "history_columns": history,
+        "flank_columns": flank,
     }
 
 

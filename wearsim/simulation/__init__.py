@@ -20,9 +20,10 @@ def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) 
     """Wear the sprocket of a case until its first limit, as the public `wearsim.simulate` does."""
     case.drive.check(case)
     if case.drive.rests:
+        from wearsim.result.kept_runs import kept_or_run
         from wearsim.simulation.wrap_life import simulate_wrap
 
-        return simulate_wrap(case, progress)
+        return kept_or_run(case, lambda: simulate_wrap(case, progress))
     from wearsim.simulation.pointwise import simulate_points
 
     return simulate_points(case)

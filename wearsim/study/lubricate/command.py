@@ -6,12 +6,13 @@ import click
 
 from wearsim.command.answered import Shown, shown_options
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, load_cases, overrides, working
+from wearsim.command.options import common_options, keeping_runs, load_cases, overrides, working
 
 
 @click.command(short_help="Compare relubrication intervals and lubricants.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @shown_options("table, summary and picture")
+@keeping_runs
 @overrides
 @common_options
 def lubricate(case: Path, shown: Shown, settings: tuple[str, ...]) -> None:

@@ -7,12 +7,13 @@ import click
 
 from wearsim.command.answered import Shown, shown_options
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, load_cases, overrides, working
+from wearsim.command.options import common_options, keeping_runs, load_cases, overrides, working
 
 
 @click.command(short_help="When to replace chain and sprockets, and at what cost.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @shown_options("tables, summary and picture")
+@keeping_runs
 @overrides
 @common_options
 def maintain(case: Path, shown: Shown, settings: tuple[str, ...]) -> None:

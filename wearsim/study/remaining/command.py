@@ -6,7 +6,15 @@ import click
 
 from wearsim.command.answered import Shown, shown_options
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, finite, load_cases, overrides, sprocket_option, working
+from wearsim.command.options import (
+    common_options,
+    finite,
+    keeping_runs,
+    load_cases,
+    overrides,
+    sprocket_option,
+    working,
+)
 
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
@@ -63,6 +71,7 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 )
 @shown_options("tables and a picture")
 @sprocket_option
+@keeping_runs
 @overrides
 @common_options
 def remaining(

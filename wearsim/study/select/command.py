@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from wearsim.command.options import FAILED, common_options, error_json, print_json, warn, working
+from wearsim.command.options import (
+    FAILED,
+    common_options,
+    error_json,
+    keeping_runs,
+    print_json,
+    warn,
+    working,
+)
 from wearsim.command.single_file import write_content
 from wearsim.errors import CaseError, OutputError, WearsimError
 
@@ -156,6 +164,7 @@ def _requirement_options(function: _Function) -> _Function:
 )
 @click.option("--force", is_flag=True, help="Replace existing files.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@keeping_runs
 @common_options
 def select(
     price: Path | None,

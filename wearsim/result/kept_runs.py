@@ -1,0 +1,174 @@
+"""Runs that are kept by their content, so that the next command need not run the same case again.
+
+A command says `keep_runs`; without that, and from Python, every case is run. A run is found by a hash of all
+that it depends on: the case number by number, the files of wearsim, and the versions of its libraries.
+"""
+
+import contextlib
+import hashlib
+import io
+import json
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import platformdirs
+
+import wearsim
+from wearsim.case.model import Case
+from wearsim.files import write_file
+from wearsim.result.folder import fields_of_result, stored_result
+from wearsim.result.wear_result import WearResult, environment
+
+FOLDER = "WEARSIM_RUNS"
+"""Variable that names the folder of kept runs in place of the user's cache folder; empty, none are kept."""
+
+_MOST_BYTES = 200_000_000
+"""Size of all runs that are kept; those that were used longest ago go first."""
+
+_NOT_ITS_CONTENT = ("name", "title", "given")
+"""Attributes of a case that no number of its run depends on."""
+
+_TABLES = ("history", "flank")
+
+_ENDING = ".run"
+_DIGEST_BYTES = hashlib.sha256().digest_size
+"""A file begins with the hash of the rest, by which one is known that is not whole."""
+
+_folder: Path | None = None
+
+
+def keep_runs(folder: Path | None) -> None:
+    """Have runs kept in a folder from now on, by all threads of this process; with None no more."""
+    global _folder
+    _folder = folder
+
+
+def runs_folder() -> Path | None:
+    """Return the folder of kept runs, that of ``WEARSIM_RUNS`` or the user's; None where none are kept."""
+    chosen = os.environ.get(FOLDER)
+    if chosen is None:
+        return Path(platformdirs.user_cache_dir("wearsim")) / "runs"
+    return Path(chosen) if chosen else None
+
+
+def kept_or_run(case: Case, run: Callable[[], WearResult]) -> WearResult:
+    """Return the run of a case that is kept; else run it, and keep it."""
+    if _folder is None:
+        return run()
+    key = content_hash(case)
+    file = _folder / f"{key}{_ENDING}"
+    found = _read(file, key, case)
+    if found is None:
+        found = run()
+        # A cache that cannot be written costs time and nothing else.
+        with contextlib.suppress(OSError):
+            write_file(file, _written(found, key), force=True)
+            _limit_size(_folder)
+    return found
+
+
+def content_hash(case: Case) -> str:
+    """Return the hash of a case number by number, and of what else its run depends on."""
+    digest = hashlib.sha256(_program())
+    for field in fields(case):
+        if field.name not in _NOT_ITS_CONTENT:
+            _add(digest.update, (field.name, getattr(case, field.name)))
+    return digest.hexdigest()[:32]
+
+
+@cache
+def _program() -> bytes:
+    """Return the hash of this program, its tables and its libraries."""
+    digest = hashlib.sha256(json.dumps(environment()).encode())
+    root = Path(wearsim.__file__).parent
+    for path in sorted(path for path in root.rglob("*") if path.suffix in (".py", ".csv", ".toml")):
+        digest.update(path.relative_to(root).as_posix().encode())
+        digest.update(path.read_bytes())
+    return digest.digest()
+
+
+def _add(update: Callable[[bytes], None], value: Any) -> None:
+    """Add a value to a hash, with its kind and its length, so that no two contents are alike."""
+    update(f"{type(value).__name__}:".encode())
+    if is_dataclass(value):
+        for field in fields(value):
+            _add(update, (field.name, getattr(value, field.name)))
+    elif isinstance(value, Mapping):
+        _add(update, tuple(value.items()))
+    elif isinstance(value, list | tuple):
+        update(f"{len(value)};".encode())
+        for part in value:
+            _add(update, part)
+    elif isinstance(value, np.ndarray):
+        _add(update, (value.dtype.str, value.shape, value.tobytes()))
+    elif value is None or isinstance(value, str | bytes | int | float | Path):
+        content = value if isinstance(value, bytes) else repr(value).encode()
+        update(f"{len(content)};".encode() + content)
+    else:
+        raise TypeError(f"a case holds a {type(value).__name__}, of which there is no hash")
+
+
+def _written(result: WearResult, key: str) -> bytes:
+    """Return a result as the content of a file; its inputs are those of the case."""
+    stored = {**stored_result(vars(result), result.summary()), "key": key, "environment": result.environment}
+    columns = {
+        f"{table}.{name}": values
+        for table in _TABLES
+        for name, values in getattr(result, f"{table}_columns").items()
+    }
+    file = io.BytesIO()
+    np.savez_compressed(
+        file, result=np.array(json.dumps(stored, allow_nan=False)), allow_pickle=False, **columns
+    )
+    content = file.getvalue()
+    return hashlib.sha256(content).digest() + content
+
+
+def _read(file: Path, key: str, case: Case) -> WearResult | None:
+    """Return the result in a file; None where there is none, or the file is not whole or of another run."""
+    try:
+        content = file.read_bytes()
+    except OSError:
+        return None
+    digest, content = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
+    if hashlib.sha256(content).digest() != digest:
+        return None
+    tables: dict[str, dict[str, Any]] = {table: {} for table in _TABLES}
+    with np.load(io.BytesIO(content), allow_pickle=False) as entries:
+        stored = json.loads(str(entries["result"]))
+        for entry in entries.files:
+            table, _, name = entry.partition(".")
+            if name:
+                tables[table][name] = entries[entry]
+    if stored["key"] != key:
+        return None
+    with contextlib.suppress(OSError):
+        os.utime(file)
+    known = fields_of_result(stored, case.inputs, case.input_files, tables["history"], tables["flank"])
+    found = WearResult(**{**known, "environment": stored["environment"]})
+    return replace(found, case=case.name, title=case.title)
+
+
+def _limit_size(folder: Path) -> None:
+    """Remove the runs that were used longest ago, until the others are small enough."""
+    files = [(status.st_mtime_ns, status.st_size, path) for path, status in kept_files(folder)]
+    size = sum(bytes_ for _, bytes_, _ in files)
+    for _, bytes_, path in sorted(files):
+        if size <= _MOST_BYTES:
+            return
+        path.unlink(missing_ok=True)
+        size -= bytes_
+
+
+def kept_files(folder: Path) -> list[tuple[Path, os.stat_result]]:
+    """Return the kept runs of a folder with what is known of their files; another writer may remove some."""
+    found = []
+    for path in folder.glob(f"*{_ENDING}"):
+        with contextlib.suppress(FileNotFoundError):
+            found.append((path, path.stat()))
+    return found
