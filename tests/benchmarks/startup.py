@@ -39,8 +39,8 @@ WARM, COLD = 5, 1
 KERNELS = """
 import numba.core.event, time
 from wearsim.input.mechanism_registry import MECHANISMS
-from wearsim.kernels.compiled import kernel_of
-from wearsim.kernels.object_code import object_code
+from wearsim.jit.compiled import kernel_of
+from wearsim.jit.object_code import object_code
 
 class Clock(numba.core.event.Listener):
     def __init__(self):

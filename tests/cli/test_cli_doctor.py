@@ -16,7 +16,7 @@ import pytest
 import wearsim
 from wearsim.cli import doctor
 from wearsim.extras import libraries
-from wearsim.kernels import compiled
+from wearsim.jit import compiled
 
 ROOT = Path(__file__).parents[2]
 
@@ -179,7 +179,7 @@ def read_only(tmp_path):
 LOCKED = """
 import os, sys, tempfile
 import wearsim.cli
-from wearsim.kernels import compiled
+from wearsim.jit import compiled
 compiled._folder()  # kernels from the cache that there is
 tempfile.tempdir = os.environ["HOME"] = os.environ["NUMBA_CACHE_DIR"] = sys.argv[1]
 sys.argv = ["wearsim", "doctor", "--json"]

@@ -12,7 +12,7 @@ import pytest
 
 import wearsim
 from wearsim.input.mechanism_registry import MECHANISMS
-from wearsim.kernels.compiled import Kernel, all_kernels
+from wearsim.jit.compiled import Kernel, all_kernels
 
 CASES = Path(__file__).parents[2] / "cases"
 STRAND, WRAP = CASES / "16b-20t-oiled.toml", CASES / "08b-19t-wrap.toml"
@@ -90,7 +90,7 @@ def test_mechanism_names_the_kernels_that_its_life_calls(monkeypatch, kind, case
 
 
 def test_warm_needs_a_folder(cli, monkeypatch):
-    monkeypatch.setattr("wearsim.kernels.compiled.cache_folder", lambda: None)
+    monkeypatch.setattr("wearsim.jit.compiled.cache_folder", lambda: None)
     done = cli("warm")
     assert (done.code, done.out) == (2, "")
     assert "set NUMBA_CACHE_DIR" in done.err

@@ -26,8 +26,8 @@ from wearsim.input.faults import CaseRecord
 from wearsim.input.mechanism_registry import MECHANISMS, MechanismEntry
 from wearsim.input.table import CalculationTables
 from wearsim.input.units import Positive
-from wearsim.kernels.compiled import kernel
-from wearsim.kernels.signatures import CONTACT
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CONTACT
 from wearsim.quantities import Quantity, quantities
 
 MODULUS = 115_000.0

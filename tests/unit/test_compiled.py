@@ -18,12 +18,12 @@ import pytest
 from numba import float64
 
 import wearsim
-from wearsim.kernels import compiled, object_code
-from wearsim.kernels.compiled import cache_folder, kernel, source_hash
+from wearsim.jit import compiled, object_code
+from wearsim.jit.compiled import cache_folder, kernel, source_hash
 
 LIFE = """
 import wearsim
-from wearsim.kernels.compiled import cache_folder
+from wearsim.jit.compiled import cache_folder
 case = {
     "format_version": 1,
     "chain": {"designation": "16B-1"},
@@ -70,8 +70,8 @@ def package(tmp_path):
 
 
 HELPER = """
-from wearsim.kernels.compiled import kernel
-from wearsim.kernels.signatures import float64
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import float64
 
 
 @kernel(float64(float64))
@@ -222,10 +222,12 @@ def test_quick_kernels_give_the_same_bits_before_machine_code_is_loaded():
 
 
 def test_hash_is_of_every_kernel_source_and_of_the_versions(package, monkeypatch):
-    folder = package / "wearsim" / "kernels"
-    monkeypatch.setattr(compiled, "__file__", str(folder / "compiled.py"))
+    folders = package / "wearsim" / "jit", package / "wearsim" / "kernels"
+    monkeypatch.setattr(compiled, "_HERE", folders[0])
+    monkeypatch.setattr(compiled, "_KERNELS", folders[1])
     found = {source_hash()}
-    sources = sorted(folder.glob("*.py"))
+    sources = sorted(source for folder in folders for source in folder.glob("*.py"))
+    assert len(sources) > 20
     for source in sources:
         source.write_text(source.read_text(encoding="utf-8") + "\n", encoding="utf-8")
         found.add(source_hash())

@@ -11,11 +11,11 @@ import sys
 import numpy as np
 import pytest
 
-from wearsim.kernels import compiled, machine_code
-from wearsim.kernels.compiled import Kernel, kernel, kernel_of
-from wearsim.kernels.machine_code import MachineCode, keep, kept
-from wearsim.kernels.object_code import object_code
-from wearsim.kernels.signatures import VECTOR, float64
+from wearsim.jit import compiled, machine_code
+from wearsim.jit.compiled import Kernel, kernel, kernel_of
+from wearsim.jit.machine_code import MachineCode, keep, kept
+from wearsim.jit.object_code import object_code
+from wearsim.jit.signatures import VECTOR, float64
 
 
 def in_machine_code(name):
@@ -97,8 +97,8 @@ def test_kernel_with_memory_of_its_own_is_left_to_numba():
 
 
 NUMBA_FIRST = """
-from wearsim.kernels.compiled import kernel_of
-from wearsim.kernels.object_code import numba_function, object_code
+from wearsim.jit.compiled import kernel_of
+from wearsim.jit.object_code import numba_function, object_code
 one = kernel_of("controlled_steps.between")
 assert numba_function(one, None).overloads
 print(len(object_code(one)))
@@ -126,7 +126,7 @@ def test_processes_without_the_libraries_of_c_leave_kernels_to_numba(monkeypatch
     assert here.tobytes() == there.tobytes()
 
 
-ENDING = "from wearsim.kernels.machine_code import file_ending; print(file_ending(), end='')"
+ENDING = "from wearsim.jit.machine_code import file_ending; print(file_ending(), end='')"
 
 
 def ending(**variables):

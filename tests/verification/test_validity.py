@@ -15,9 +15,9 @@ import wearsim
 from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.geometry.profile_points import Profile
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CONTACT
 from wearsim.kernels.prescribed import prescribed_contact
-from wearsim.kernels.signatures import CONTACT
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard
 from wearsim.wear.trajectory import Trajectory, check_fold

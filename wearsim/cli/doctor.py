@@ -99,7 +99,7 @@ def _numbers(version: str) -> tuple[int, ...]:
 
 
 def _cache() -> InstallationCheck:
-    from wearsim.kernels.compiled import cache_folder
+    from wearsim.jit.compiled import cache_folder
 
     name, folder = "cache of kernels", cache_folder()
     if folder is None:

@@ -30,7 +30,7 @@ Exit codes: 0 done, 1 bug in wearsim, 2 bad input, 3 calculation failed,
 
 def announce_compiling() -> None:
     """Have the kernels that this command takes and no cache holds compiled side by side, with a message."""
-    from wearsim.kernels.compiled import Kernel, compile_by
+    from wearsim.jit.compiled import Kernel, compile_by
 
     context = click.get_current_context()
 

@@ -15,7 +15,7 @@ def warm() -> None:
     for each kind of processor. Without this command, each run compiles what it needs the first time.
     """
     from wearsim.command.compile_ahead import compile_with_bar
-    from wearsim.kernels.compiled import all_kernels, cache_folder, not_in_cache
+    from wearsim.jit.compiled import all_kernels, cache_folder, not_in_cache
 
     folder, kernels = cache_folder(), all_kernels()
     if folder is None:

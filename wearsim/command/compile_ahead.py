@@ -10,7 +10,7 @@ from concurrent.futures import BrokenExecutor, Executor, as_completed
 import click
 
 from wearsim.command.options import warn, working
-from wearsim.kernels.compiled import Kernel
+from wearsim.jit.compiled import Kernel
 from wearsim.runner.workers import Processes
 
 _MOST_PROCESSES = 4

@@ -99,7 +99,7 @@ def working(text: str) -> Iterator[Callable[[float], None]]:
 
     What it is going to call is compiled before, which has a bar of its own.
     """
-    from wearsim.kernels.compiled import compile_expected
+    from wearsim.jit.compiled import compile_expected
 
     compile_expected()
     quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")

@@ -130,7 +130,7 @@ _TIMED = 4
 @contextmanager
 def _counting(text: str) -> "Iterator[ProgressCount]":
     """Show on a terminal how many cases are done, at what rate, and the time left."""
-    from wearsim.kernels.compiled import compile_expected
+    from wearsim.jit.compiled import compile_expected
 
     compile_expected()
     quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")

@@ -6,7 +6,7 @@ from typing import Any
 
 from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.input.document import Document, is_whole_drive
-from wearsim.kernels.compiled import expect
+from wearsim.jit.compiled import expect
 from wearsim.lazy import named
 
 STRAND_FORMS = tuple(name for name, form in TOOTH_FORMS.items() if form.on_strand)

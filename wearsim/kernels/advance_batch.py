@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CONTACT_FUNCTION, CUBE, STEP_FUNCTION, TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.controlled_steps import (
     END,
     FINEST,
@@ -17,21 +18,11 @@ from wearsim.kernels.controlled_steps import (
     wear_in_steps,
 )
 from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, LOAD, RELATIVE, RUNNING, flank_rate
-from wearsim.kernels.signatures import (
-    CONTACT_FUNCTION,
-    CUBE,
-    STEP_FUNCTION,
-    TABLE,
-    VECTOR,
-    float64,
-    int64,
-    void,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 LIMIT, HORIZON_TIME, LIFE_TOLERANCE, MODULUS, DIFFUSION = range(5)
 """Of the numbers of a flank: depth allowed, time of the horizon, tolerance of the life, E*, e."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CONTACT_FUNCTION, CUBE, STEP_FUNCTION, TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.hertz_wear import (
     BROKEN,
     CONFORMING,
@@ -30,21 +31,11 @@ from wearsim.kernels.hertz_wear import (
     sawtooth,
 )
 from wearsim.kernels.severity import CASE_DEPTH, CORE_FACTOR
-from wearsim.kernels.signatures import (
-    CONTACT_FUNCTION,
-    CUBE,
-    STEP_FUNCTION,
-    TABLE,
-    VECTOR,
-    float64,
-    int64,
-    void,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 STATE_ROWS = 8
 """Of a state on the path: x, y, depth, rate, the direction a point recedes in (2), 1/rho_H."""

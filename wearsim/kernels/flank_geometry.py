@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
-from wearsim.kernels.signatures import VECTOR, int64, void
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import VECTOR, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 
 @kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, int64, int64), quick=True)

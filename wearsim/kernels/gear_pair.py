@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CONTACT, TABLE, VECTOR, float64, int64
 from wearsim.kernels.flank_geometry import add_second_difference
-from wearsim.kernels.signatures import CONTACT, TABLE, VECTOR, float64, int64
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 
 @kernel(float64(VECTOR, TABLE, float64, int64))

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.flank_geometry import flank_frame
 from wearsim.kernels.severity import (
     CASE_DEPTH,
@@ -18,12 +19,11 @@ from wearsim.kernels.severity import (
     SPEED_EXPONENT,
     make_severe,
 )
-from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 X, Y, DEPTH, RATE, PATH_NORMAL_X, PATH_NORMAL_Y, PATH_RELATIVE, PATH_CURVATURE = range(8)
 """Rows of a state: points and depth, and on the path also what the contact made of them."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.hertz_wear import (
     DEPTH_REACHED,
     RELATIVE,
@@ -26,10 +27,9 @@ from wearsim.kernels.severity import (
     SPEED_EXPONENT,
     make_severe,
 )
-from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 ARC, LOAD, SLIP, SPEED, CURVATURE, NORMAL_X, NORMAL_Y = range(7)
 """Rows of the columns of a flank in offset form."""

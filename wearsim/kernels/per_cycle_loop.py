@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64
 from wearsim.kernels.flank_geometry import flank_frame
 from wearsim.kernels.hertz_wear import (
     CURVATURE,
@@ -22,12 +23,11 @@ from wearsim.kernels.hertz_wear import (
     update_status,
     wear_depth,
 )
-from wearsim.kernels.signatures import CONTACT_FUNCTION, TABLE, VECTOR, float64, int64
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 
 CYCLES_ROWS = 9

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CONTACT
 from wearsim.kernels.flank_geometry import add_second_difference
 from wearsim.kernels.offset import ARC, CURVATURE, LOAD, MATE_CURVATURE, NORMAL_X, NORMAL_Y, SLIP, SPEED
-from wearsim.kernels.signatures import CONTACT
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 
 @kernel(CONTACT)

@@ -12,7 +12,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CONTACT_FUNCTION, STEP, TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.hertz_wear import (
     BROKEN,
     CONFORMING,
@@ -36,13 +37,12 @@ from wearsim.kernels.hertz_wear import (
     soften_edges,
     wear_depth,
 )
-from wearsim.kernels.signatures import CONTACT_FUNCTION, STEP, TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.tridiagonal import factorise, solve
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 SLOPE, WORK_ROWS = 9, 18
 """Row of d(rate)/d(slope) in the table to work in, after those of ``flank_rate``, and the number of rows."""

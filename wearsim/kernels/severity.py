@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
-from wearsim.kernels.signatures import VECTOR, float64, void
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import VECTOR, float64, void
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 NONE, BY_PRESSURE_SPEED, BY_T_GAMMA = 0.0, 1.0, 2.0
 """Kinds of severity."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
-from wearsim.kernels.signatures import CONTACT
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CONTACT
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 HEIGHT, RADIUS, PULL, LOAD_END, LOAD_START, PER_OVERLAP, SLIP_FRACTION, ANGULAR_SPEED = range(8)
 """Places of the constants: height of the strand's line, radius of the roller, pull per face width, end and

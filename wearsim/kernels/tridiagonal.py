@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
-from wearsim.kernels.signatures import TABLE, VECTOR, float64, void
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import TABLE, VECTOR, float64, void
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 BEFORE, ON, AFTER, ENDS = range(4)
 """Rows of a system: entries before, on and after the diagonal; of its factors also the multipliers of the two

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import CUBE, TABLE, VECTOR, float64, int64
 from wearsim.kernels.event_rows import (
     EVENT_BODY,
     EVENT_CENTRE_X,
@@ -18,7 +19,6 @@ from wearsim.kernels.event_rows import (
     EVENT_SPEED,
     EVENT_TOUCHED,
 )
-from wearsim.kernels.signatures import CUBE, TABLE, VECTOR, float64, int64
 from wearsim.kernels.wrap_equilibrium import (
     CENTRE_X,
     CENTRE_Y,
@@ -36,7 +36,7 @@ from wearsim.kernels.wrap_equilibrium import (
 )
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 _TOLERANCE = 1e-9
 LOOSEST = 1e-2

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.roller_locus import LOCUS_NORMAL_X, LOCUS_NORMAL_Y, LOCUS_X, LOCUS_Y
-from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 SEATED, JUMPED, STALLED = 0, 1, 2
 """What a solve ends with: an equilibrium, a roller over a tip, or neither within the iterations."""

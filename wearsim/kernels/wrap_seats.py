@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
-from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.wrap_equilibrium import (
     DIGITS,
     PITCH_ANGLE,
@@ -20,7 +20,7 @@ from wearsim.kernels.wrap_equilibrium import (
 )
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 # rows of the table of seats, a column for every roller in every phase: centre in its gap, nearest cell,
 # half of the width that presses, cells that may press, friction, force on the tooth, where it presses,

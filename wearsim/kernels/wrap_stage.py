@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wearsim.kernels.compiled import kernel
-from wearsim.kernels.signatures import TABLE, VECTOR, float64, int64, void
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import TABLE, VECTOR, float64, int64, void
 from wearsim.kernels.wrap_equilibrium import (
     CONSTANTS,
     FRICTION,
@@ -36,7 +36,7 @@ from wearsim.kernels.wrap_seats import (
 from wearsim.kernels.wrap_wear import SPACING, UNWORN_CURVATURE, recede, worn_width
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 # rows of the table of blocks, after the constants of `wrap_equilibrium`
 COUNT, PITCH_TIME = CONSTANTS, CONSTANTS + 1

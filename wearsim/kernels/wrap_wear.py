@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import TABLE, VECTOR, int64, void
 from wearsim.kernels import half_space
-from wearsim.kernels.compiled import kernel
 from wearsim.kernels.event_rows import (
     EVENT_BODY,
     EVENT_CENTRE_X,
@@ -20,10 +21,9 @@ from wearsim.kernels.event_rows import (
     EVENT_TOUCHED,
 )
 from wearsim.kernels.half_space import CONVERGED, NOT_CONVERGED, power_contact
-from wearsim.kernels.signatures import TABLE, VECTOR, int64, void
 
 if TYPE_CHECKING:
-    from wearsim.kernels.signatures import Vector
+    from wearsim.jit.signatures import Vector
 
 # rows of the table of the unworn outline
 UNWORN_X, UNWORN_Y, UNWORN_NORMAL_X, UNWORN_NORMAL_Y, UNWORN_CURVATURE, SPACING = range(6)

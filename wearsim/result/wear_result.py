@@ -14,7 +14,7 @@ from wearsim._version import __version__
 from wearsim.chain.selection import RatingFinding, overloading
 from wearsim.errors import WearsimError
 from wearsim.geometry.profile_points import Vector
-from wearsim.kernels.compiled import source_hash
+from wearsim.jit.compiled import source_hash
 from wearsim.notebook import html_rows, one_line
 from wearsim.result.ends import PITTING, LifeBand, PartEnd, before_wear, ends_json, first_end_keys, part_ends
 from wearsim.result.events import Event, drive_events, events_json

@@ -18,7 +18,7 @@ from wearsim.input.document import Document
 from wearsim.input.keys import schema_fields, schema_of
 from wearsim.input.mechanism_registry import MECHANISMS, WHOLE_DRIVE, mechanism_of
 from wearsim.input.table import is_number, without_numbers
-from wearsim.kernels.compiled import source_hash
+from wearsim.jit.compiled import source_hash
 from wearsim.result.folder import FILE_KEYS, file_paths
 
 _WRAPS = MECHANISMS["wrap"], WHOLE_DRIVE

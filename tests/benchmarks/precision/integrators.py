@@ -6,7 +6,18 @@ rates it has evaluated. The matrix is the package's, along the normals at the st
 
 import math
 
-from wearsim.kernels.compiled import kernel
+from wearsim.jit.compiled import kernel
+from wearsim.jit.signatures import (
+    CONTACT_FUNCTION,
+    CUBE,
+    STEP,
+    STEP_FUNCTION,
+    TABLE,
+    VECTOR,
+    float64,
+    int64,
+    void,
+)
 from wearsim.kernels.controlled_steps import (
     END,
     FIRST_STEP,
@@ -32,17 +43,6 @@ from wearsim.kernels.hertz_wear import (
     sawtooth,
 )
 from wearsim.kernels.rosenbrock import slope_rate, wear_rows
-from wearsim.kernels.signatures import (
-    CONTACT_FUNCTION,
-    CUBE,
-    STEP,
-    STEP_FUNCTION,
-    TABLE,
-    VECTOR,
-    float64,
-    int64,
-    void,
-)
 from wearsim.kernels.tridiagonal import factorise, solve
 
 WORK_ROWS, REPORT = 19, 18

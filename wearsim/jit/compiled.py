@@ -28,9 +28,13 @@ from typing import Any, ClassVar, TypeVar, cast
 
 import platformdirs
 
-from wearsim.kernels.machine_code import MachineCode, file_ending, keep, kept, usable
+from wearsim.jit.machine_code import MachineCode, file_ending, keep, kept, usable
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+_HERE = Path(__file__).parent
+_KERNELS, _PACKAGE = _HERE.with_name("kernels"), "wearsim.kernels"
+"""Folder and package of all kernels of wearsim."""
 
 
 def source_hash() -> str:
@@ -38,8 +42,9 @@ def source_hash() -> str:
     from importlib.metadata import version
 
     digest = hashlib.sha256(f"{version('numba')} {platform.python_version()}".encode())
-    for source in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(source.name.encode())
+    sources = (source for folder in (_HERE, _KERNELS) for source in folder.glob("*.py"))
+    for source in sorted(sources):
+        digest.update(f"{source.parent.name}/{source.name}".encode())
         digest.update(source.read_bytes())
     return digest.hexdigest()[:16]
 
@@ -140,7 +145,7 @@ class Kernel:
         path = self.object_file
         code = kept(path) if path else None
         if code is None:
-            from wearsim.kernels.object_code import object_code
+            from wearsim.jit.object_code import object_code
 
             code = object_code(self)
             if path:
@@ -150,7 +155,7 @@ class Kernel:
     @cached_property
     def left_to_numba(self) -> Any:
         """What numba itself makes of the function."""
-        from wearsim.kernels.object_code import numba_function
+        from wearsim.jit.object_code import numba_function
 
         return numba_function(self, _folder())
 
@@ -162,7 +167,7 @@ class Kernel:
             return self.left_to_numba
         if isinstance(self.compiled, MachineCode):
             return self.compiled.address
-        from wearsim.kernels.object_code import address
+        from wearsim.jit.object_code import address
 
         return address(self.compiled)
 
@@ -174,7 +179,7 @@ class Kernel:
     @property
     def ours(self) -> bool:
         """Whether it is of this package."""
-        return self.function.__module__.startswith(f"{__package__}.")
+        return self.function.__module__.startswith(f"{_PACKAGE}.")
 
     @property
     def object_file(self) -> Path | None:
@@ -210,13 +215,13 @@ def kernel(signature: Any, quick: bool = False) -> Callable[[Function], Function
 def kernel_of(name: str) -> Kernel:
     """Return the kernel of a name such as ``strand.strand_contact``."""
     module, _, function = name.partition(".")
-    found: Kernel = getattr(import_module(f"{__package__}.{module}"), function)
+    found: Kernel = getattr(import_module(f"{_PACKAGE}.{module}"), function)
     return found
 
 
 def all_kernels() -> list[Kernel]:
     """Return every kernel of wearsim."""
-    places = iter_modules([str(Path(__file__).parent)], f"{__package__}.")
+    places = iter_modules([str(_KERNELS)], f"{_PACKAGE}.")
     modules = [import_module(place.name) for place in places]
     found = {one for module in modules for one in vars(module).values() if isinstance(one, Kernel)}
     return sorted(found, key=lambda one: one.name)

@@ -21,10 +21,10 @@ from numba.core.registry import CPUDispatcher, CPUTarget
 from numba.core.typing.context import Context
 from numba.extending import typeof_impl
 
-from wearsim.kernels.machine_code import FROM_PYTHON, parameters
+from wearsim.jit.machine_code import FROM_PYTHON, parameters
 
 if TYPE_CHECKING:
-    from wearsim.kernels.compiled import Kernel
+    from wearsim.jit.compiled import Kernel
 
 _NJIT: Any = numba.njit
 

@@ -16,7 +16,7 @@ from operator import index
 from pathlib import Path
 from typing import Any
 
-from wearsim.kernels.signatures import Signature
+from wearsim.jit.signatures import Signature
 
 _HASH = 32
 """Bytes of a hash."""

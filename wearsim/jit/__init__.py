@@ -1,0 +1,1 @@
+"""Kernels in machine code: compiled when first called, kept on disk, loaded without numba. No physics."""
