@@ -15,7 +15,7 @@ from wearsim.errors import ContactError
 from wearsim.geometry.profile_points import area_between
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import power
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
 from wearsim.wear.trajectory import Trajectory
 
 pytestmark = pytest.mark.wide

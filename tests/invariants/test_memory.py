@@ -15,7 +15,7 @@ from wearsim.contact.engagement import Mechanism
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
 
 pytestmark = pytest.mark.wide
 

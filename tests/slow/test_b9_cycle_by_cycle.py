@@ -14,7 +14,7 @@ from wearsim.contact.hertz import contact_modulus
 from wearsim.contact.stop_limits import depth_limit
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.law import archard
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
 
 EXACT = 0.418 / math.sqrt(1.0 / (2.0 * math.pi * (1.0 - 0.3**2)))
 

@@ -18,7 +18,7 @@ from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.law import WearLaw, archard, drozdov, power
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
 
 NODES, SPACING, ROLLER, MODULUS, LOAD = 41, 0.1, 5.0, 1e5, 200.0
 SIGMA = math.sqrt(LOAD * MODULUS / (math.pi * ROLLER))

@@ -14,7 +14,7 @@ from wearsim.kernels import event_rows as kernels
 from wearsim.kernels import wrap_wear as engine
 from wearsim.wear.implicit_steps import run_resting, run_seated
 from wearsim.wear.law import archard, drozdov
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
 from wearsim.wear.resting_bodies import StartState
 
 MODULUS = 2.1e5 / (2.0 * 0.91)

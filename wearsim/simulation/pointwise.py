@@ -23,7 +23,7 @@ from wearsim.simulation.wear_task import (
     wear_task,
 )
 from wearsim.wear.accuracy import GridStudy, depth_missed, grid_study
-from wearsim.wear.per_cycle import check_length, run_per_cycle
+from wearsim.wear.loop import check_length, run_per_cycle
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
 

@@ -16,7 +16,6 @@ from wearsim.lubrication.clock import lubricant_clock
 from wearsim.result import LimitState
 from wearsim.simulation.lubricant import sliding_per_cycle
 from wearsim.wear.advance import run_advance
-from wearsim.wear.cycles_power import CyclesPower
 from wearsim.wear.law import (
     LAWS,
     RelativeLoad,
@@ -26,10 +25,9 @@ from wearsim.wear.law import (
     with_pressure_speed_limit,
 )
 from wearsim.wear.mate_clock import LubricatedClock
-from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
+from wearsim.wear.running_in import NO_RUNNING_IN, CyclesPower, RunningIn, WearClock
 from wearsim.wear.severe_wear import on_level_branch, t_gamma_energy
 from wearsim.wear.trajectory import Trajectory
-from wearsim.wear.wear_clock import WearClock
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,13 +22,12 @@ from wearsim.simulation.wear_task import clock_assumptions, contact_clock, limit
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
+from wearsim.wear.loop import check_length
 from wearsim.wear.mate_clock import LubricatedClock, MateClock
-from wearsim.wear.per_cycle import check_length
 from wearsim.wear.resting_bodies import Rows, StartState, highest_load
-from wearsim.wear.running_in import NO_RUNNING_IN
+from wearsim.wear.running_in import NO_RUNNING_IN, WearClock
 from wearsim.wear.settled_run import advance_resting
 from wearsim.wear.trajectory import Trajectory, difference
-from wearsim.wear.wear_clock import WearClock
 
 _FLANKS = 40
 """Worn outlines kept in flank.csv, about."""

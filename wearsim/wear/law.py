@@ -14,9 +14,8 @@ from wearsim.contact.engagement import ContactKind
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.severity import BY_PRESSURE_SPEED, BY_T_GAMMA
 from wearsim.wear.mate_clock import STEADY, MateClock
-from wearsim.wear.running_in import NO_RUNNING_IN
+from wearsim.wear.running_in import NO_RUNNING_IN, WearClock
 from wearsim.wear.severe_wear import NO_SEVERITY, Severity, t_gamma_coefficient
-from wearsim.wear.wear_clock import WearClock
 
 
 def mean_pressure_factor(exponent: float) -> float:

@@ -22,7 +22,7 @@ from wearsim.kernels.per_cycle_loop import CYCLES_ROWS, run_cycles
 from wearsim.kernels.rosenbrock import STAGES, rosenbrock_step
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.law import WearLaw, archard, power
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
 
 HORIZON = 1e12
 MODULUS = math.pi * 0.418**2 * 2.1e5
