@@ -11,10 +11,9 @@ from wearsim.errors import WearsimError
 from wearsim.geometry.profile_points import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.film_ratio import film_assumptions
 from wearsim.simulation.flank_grids import LEVELS, GridSearch, SettledLife, settle_grid
 from wearsim.simulation.lubricant import late_relubrication
-from wearsim.simulation.validity import few_cycles, validity
+from wearsim.simulation.validity import few_cycles, film_assumptions, validity
 from wearsim.simulation.wear_task import (
     WearTask,
     clock_assumptions,
