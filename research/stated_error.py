@@ -32,7 +32,7 @@ import wearsim
 from wearsim.catalogue.catalogues import chains
 from wearsim.geometry.profile_points import Profile
 from wearsim.simulation.wear_task import wear_task
-from wearsim.simulation.wrap_life import wrap_problem
+from wearsim.simulation.wrap_life import wrap_task
 from wearsim.wear.implicit_steps import run_seated
 from wearsim.wear.trajectory import Trajectory
 
@@ -196,9 +196,7 @@ def extrapolated(coarse: float, fine: float) -> float:
 
 def steps_life(case: wearsim.Case, level: int) -> Trajectory:
     """Wear a wrap by steps that are halved so many times."""
-    contact = case.drive.contact(case)
-    law, limits, horizon, _ = wrap_problem(case, contact)
-    run = run_seated(contact, law, limits, horizon, level)
+    run = run_seated(wrap_task(case, case.drive.contact(case)), level)
     if run.met is None:
         raise wearsim.ConvergenceError("no life")
     return run

@@ -1,7 +1,10 @@
 """Small drives that tests of several folders share: ``from tests.drives import GEARS, changed``."""
 
 import copy
+from functools import partial
 from typing import Any
+
+from wearsim.contact.stop_limits import LIMITS, StopLimit, stop_limit
 
 Tables = dict[str, Any]
 
@@ -74,3 +77,8 @@ def changed(drive: Tables, values: dict[str, Any]) -> Tables:
             table = table.setdefault(name, {})
         table[last] = value
     return copied
+
+
+def depth_limit(depth: float) -> StopLimit:
+    """The limit of the source, physics.md (12): the deepest point comes to a depth."""
+    return stop_limit("critical_depth_mm", depth, partial(LIMITS["critical_depth_mm"].worn, None))

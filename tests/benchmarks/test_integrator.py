@@ -9,15 +9,16 @@ import math
 import numpy as np
 import pytest
 
+from tests.drives import depth_limit
 from wearsim.contact.engagement import ContactKind
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.drive.load_case import load_case
 from wearsim.kernels.controlled_steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.kernels.hertz_wear import DEPTH_REACHED
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.law import archard
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
+from wearsim.wear.problem import WearProblem
 
 TOLERANCE = 1e-4
 STRAND = {
@@ -103,6 +104,6 @@ def test_solve_of_the_strand(benchmark):
     case = load_case(STRAND)
     contact = case.drive.mechanism(case).contact
     life = Solve(contact, 0.2, True).measured(benchmark) / 5e-11
-    loop = run_per_cycle(contact, archard(5e-11), (depth_limit(0.2),), 1e9, 1000)
+    loop = run_per_cycle(WearProblem(contact, archard(5e-11), (depth_limit(0.2),), 1e9), 1000)
     benchmark.extra_info["life_error"] = life / float(loop.cycles[-1]) - 1.0
     assert life == pytest.approx(float(loop.cycles[-1]), rel=1e-4)

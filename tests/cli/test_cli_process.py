@@ -13,15 +13,15 @@ WEARSIM = Path(sys.executable).with_name("wearsim")
 STARTED = """\
 import signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
-import wearsim.wear.per_cycle
-run = wearsim.wear.per_cycle.run_per_cycle
+import wearsim.wear.loop
+run = wearsim.wear.loop.run_per_cycle
 
 def started(contact, law, stop_limits, horizon, cycles_per_update):
     run(contact, law, stop_limits, 100.0, 1)
     print("started", flush=True)
     return run(contact, law, stop_limits, horizon, cycles_per_update)
 
-wearsim.wear.per_cycle.run_per_cycle = started
+wearsim.wear.loop.run_per_cycle = started
 import wearsim.cli
 wearsim.cli.main()
 """

@@ -11,12 +11,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from tests.drives import depth_limit
 from wearsim.contact.engagement import ContactKind, Mechanism
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.geometry.profile_points import area_between
 from wearsim.wear.advance import run_advance
 from wearsim.wear.implicit_steps import run_seated
 from wearsim.wear.law import power
+from wearsim.wear.problem import WearProblem
 
 
 @pytest.mark.wide
@@ -24,7 +25,7 @@ from wearsim.wear.law import power
 def test_order_of_convergence(smooth: Callable[..., Mechanism], exponent: float) -> None:
     law = power(1e-7 / 1000.0 ** (exponent - 1.0), exponent)
     contact = smooth(51).contact
-    first, _ = run_advance(contact, law, (depth_limit(0.05),), 1e9, 1e-3)
+    first, _ = run_advance(WearProblem(contact, law, (depth_limit(0.05),), 1e9), 1e-3)
     horizon, limits = float(first.cycles[-1]), (depth_limit(1.0),)
     depths, areas = [], []
     # On a wrap the ends of the contact, which lie between points, set the areas of coarser outlines.
@@ -32,9 +33,9 @@ def test_order_of_convergence(smooth: Callable[..., Mechanism], exponent: float)
         finer = smooth(nodes).contact
         if contact.kind is ContactKind.RESTING:
             # As many steps on each: what a tolerance asks for is another number of phases.
-            worn = run_seated(finer, law, limits, horizon, 3)
+            worn = run_seated(WearProblem(finer, law, limits, horizon), 3)
         else:
-            worn, _ = run_advance(finer, law, limits, horizon, 1e-6)
+            worn, _ = run_advance(WearProblem(finer, law, limits, horizon), 1e-6)
         depths.append(worn.depth[-1][nodes // 2])
         areas.append(area_between(worn.x[0], worn.y[0], worn.x[-1], worn.y[-1]))
     coarse, fine = np.abs(np.diff(depths)) / depths[-1]

@@ -9,13 +9,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from tests.drives import depth_limit
 from wearsim.contact.engagement import ContactKind, Mechanism
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import ContactError
 from wearsim.geometry.profile_points import area_between
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import power
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
+from wearsim.wear.problem import WearProblem
 from wearsim.wear.trajectory import Trajectory
 
 pytestmark = pytest.mark.wide
@@ -37,8 +38,8 @@ def run(request: pytest.FixtureRequest) -> Callable[..., Trajectory]:
         coefficient = factor * 1e-7 * length**2 * (length**2 / 1000.0) ** (exponent - 1.0)
         law, stop_limits = power(coefficient, exponent), (depth_limit(DEPTH * length),)
         if request.param == "advance":
-            return run_advance(mechanism.contact, law, stop_limits, 1e9, 1e-5)[0]
-        return run_per_cycle(mechanism.contact, law, stop_limits, 1e9, 1)
+            return run_advance(WearProblem(mechanism.contact, law, stop_limits, 1e9), 1e-5)[0]
+        return run_per_cycle(WearProblem(mechanism.contact, law, stop_limits, 1e9), 1)
 
     return wear
 
@@ -116,8 +117,8 @@ def test_grid_does_not_matter(build: Build, run: Run, exponent: float) -> None:
 def test_methods_agree(build: Build, exponent: float) -> None:
     law, stop_limits = power(1e-7 / 1000.0 ** (exponent - 1.0), exponent), (depth_limit(DEPTH),)
     contact = build(51).contact
-    advance, _ = run_advance(contact, law, stop_limits, 1e9, 1e-5)
-    per_cycle = run_per_cycle(contact, law, stop_limits, 1e9, 1)
+    advance, _ = run_advance(WearProblem(contact, law, stop_limits, 1e9), 1e-5)
+    per_cycle = run_per_cycle(WearProblem(contact, law, stop_limits, 1e9), 1)
     # Each cycle by itself, the rollers of a wrap rest where rigid teeth would have them: on the soft teeth
     # here that is 1.5 % of the life, and of the depth at the edges of the contact.
     near, beside = (0.02, 0.06) if contact.kind is ContactKind.RESTING else (3e-4, 3e-4)

@@ -11,11 +11,12 @@ from collections.abc import Callable
 import pytest
 
 import wearsim
+from tests.drives import depth_limit
 from wearsim.contact.engagement import Mechanism
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
+from wearsim.wear.problem import WearProblem
 
 pytestmark = pytest.mark.wide
 
@@ -36,9 +37,9 @@ def test_ten_times_the_cycles(build: Callable[..., Mechanism], method: str) -> N
 
     def wear(rate: float) -> float:
         if method == "advance":
-            worn, _ = run_advance(contact, archard(rate), stop_limits, 1e9, 1e-3)
+            worn, _ = run_advance(WearProblem(contact, archard(rate), stop_limits, 1e9), 1e-3)
         else:
-            worn = run_per_cycle(contact, archard(rate), stop_limits, 1e9, 1)
+            worn = run_per_cycle(WearProblem(contact, archard(rate), stop_limits, 1e9), 1)
         cycles.append(float(worn.cycles[-1]))
         return cycles[-1]
 

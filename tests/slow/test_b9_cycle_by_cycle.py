@@ -9,12 +9,13 @@ import math
 import numpy as np
 import pytest
 
+from tests.drives import depth_limit
 from wearsim.contact.engagement import ContactKind
 from wearsim.contact.hertz import contact_modulus
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.law import archard
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
+from wearsim.wear.problem import WearProblem
 
 EXACT = 0.418 / math.sqrt(1.0 / (2.0 * math.pi * (1.0 - 0.3**2)))
 
@@ -33,5 +34,5 @@ def test_b9_cycle_by_cycle(rows, rounded):
         mate_radius=6.035,
         modulus=contact_modulus((2.1e5, 2.1e5), (0.3, 0.3)),
     )
-    run = run_per_cycle(mechanism.contact, archard(1e-10), (depth_limit(0.5),), 1e8, 1)
+    run = run_per_cycle(WearProblem(mechanism.contact, archard(1e-10), (depth_limit(0.5),), 1e8), 1)
     assert run.cycles[-1] == pytest.approx(rounded * EXACT, rel=1e-7)

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
+from tests.drives import depth_limit
 from wearsim.contact.engagement import ContactKind, FlankContact
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.accuracy import SAFETY, depth_missed, exceeds, grid_error, grid_study
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard
+from wearsim.wear.problem import WearProblem
 from wearsim.wear.trajectory import Trajectory
 
 LIMIT = depth_limit(0.01)
@@ -72,7 +73,7 @@ def test_study_of_a_ripple_is_of_second_order() -> None:
     law = archard(1e-9)
 
     def run_on(grid: FlankContact) -> Trajectory:
-        return run_advance(grid, law, (LIMIT,), 1e12, 1e-7)[0]
+        return run_advance(WearProblem(grid, law, (LIMIT,), 1e12), 1e-7)[0]
 
     given = contact(81, ripple=-0.5)
     study = grid_study(given, run_on)

@@ -54,9 +54,9 @@ class Run:
 
 def settled(
     lives: dict[str, float], tolerance: float, levels: int = 2, flank: Flank | None = None
-) -> tuple[SettledLife[Run], list[str]]:
+) -> tuple[SettledLife, list[str]]:
     """Serve a search with lives by the name of the flank; one that is left out has none."""
-    search: GridSearch[Run] = settle_grid(flank or Flank(), tolerance, levels)  # type: ignore[arg-type]
+    search: GridSearch = settle_grid(flank or Flank(), tolerance, levels)  # type: ignore[arg-type]
     requested: list[str] = []
     contacts: Any = next(search)
     while True:

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 import wearsim
-from tests.drives import FAST_WRAP, changed
+from tests.drives import FAST_WRAP, changed, depth_limit
 from wearsim.case.keys import MaintenanceTable
 from wearsim.contact.resting_engagement import MateWear
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import CaseError
 from wearsim.report.answer import answer
 from wearsim.result import Life, LowerBound
@@ -21,7 +20,7 @@ from wearsim.study.maintain.reversed_sprocket import reversed_life
 from wearsim.study.maintain.sheet import maintenance_page, maintenance_text, policy_rows
 from wearsim.study.maintain.tooth_count import meetings_around, variant
 from wearsim.wear.implicit_steps import run_resting
-from wearsim.wear.resting_bodies import StartState
+from wearsim.wear.problem import StartState, WearProblem
 
 CASES = Path(__file__).parents[2] / "cases"
 
@@ -218,11 +217,11 @@ def test_a_run_goes_on_from_where_another_ended():
     drive = case(stop={"critical_depth_mm": 0.02})
     contact = drive.drive.contact(drive)
     law, stop_limits = wear_law(drive.wear, drive.wear.coefficient), (depth_limit(0.02),)
-    whole = run_resting(contact, law, stop_limits, 1e12, 1)
-    half = run_resting(contact, law, stop_limits, 0.5 * whole.cycles[-1], 1)
+    whole = run_resting(WearProblem(contact, law, stop_limits, 1e12), 1)
+    half = run_resting(WearProblem(contact, law, stop_limits, 0.5 * whole.cycles[-1]), 1)
     assert half.met is None
     start = StartState(half.all_depth[-1], MateWear(float(half.elongation[-1])), int(half.mates[-1]))
-    rest = run_resting(contact, law, stop_limits, 1e12, 1, start=start)
+    rest = run_resting(WearProblem(contact, law, stop_limits, 1e12, start), 1)
     assert np.array_equal(rest.all_depth[0], half.all_depth[-1])
     assert rest.x[0] == pytest.approx(half.x[-1], abs=1e-12)
     assert half.cycles[-1] + rest.cycles[-1] == pytest.approx(whole.cycles[-1], rel=0.02)

@@ -120,9 +120,9 @@ def test_coefficients_scale_the_life_without_another_run(monkeypatch: pytest.Mon
     runs: list[int] = []
     advance_batch = many.advance_batch
 
-    def counted(flanks: Any) -> Any:
-        runs.append(len(flanks))
-        return advance_batch(flanks)
+    def counted(problems: Any, tolerances: Any) -> Any:
+        runs.append(len(problems))
+        return advance_batch(problems, tolerances)
 
     monkeypatch.setattr(many, "advance_batch", counted)
     rates = [f"wear.specific_wear_rate_mm2_per_N={5e-11 * factor!r}" for factor in (1.0, 2.0, 7.0)]

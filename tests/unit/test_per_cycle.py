@@ -11,14 +11,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.drives import depth_limit
 from wearsim.contact.engagement import ContactKind, FlankContact
-from wearsim.contact.stop_limits import StopLimit, depth_limit
+from wearsim.contact.stop_limits import StopLimit
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.law import WearLaw, archard, drozdov, power
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
+from wearsim.wear.problem import WearProblem
 
 NODES, SPACING, ROLLER, MODULUS, LOAD = 41, 0.1, 5.0, 1e5, 200.0
 SIGMA = math.sqrt(LOAD * MODULUS / (math.pi * ROLLER))
@@ -61,18 +63,18 @@ def test_stability_limit_is_spacing_squared_over_two_e_rho(exponent: float, fact
     law = power(factor * bound / SIGMA**exponent, exponent)
     limit = (depth_limit(20.0 * bound),)
     if factor < 1.0:
-        run = run_per_cycle(flat(), law, limit, 1e6, 1)
+        run = run_per_cycle(WearProblem(flat(), law, limit, 1e6), 1)
         assert run.cycles[-1] == pytest.approx(20.0 / factor, rel=1e-9)
     else:
         with pytest.raises(ConvergenceError, match=r"spacing\^2/\(2 e rho_H\) = 0.00"):
-            run_per_cycle(flat(), law, limit, 1e6, 1)
+            run_per_cycle(WearProblem(flat(), law, limit, 1e6), 1)
 
 
 def test_given_slip_ratio_at_m_1_has_no_stability_limit() -> None:
     """e = (m - 1)/2 = 0: the depth does not depend on the curvature."""
     contact = replace(flat(path=0.5), kind=ContactKind.TRAVELLING)
     law = archard(1e-3 / (LOAD * 0.5))
-    run = run_per_cycle(contact, law, (depth_limit(DEPTH),), 1e6, 5)
+    run = run_per_cycle(WearProblem(contact, law, (depth_limit(DEPTH),), 1e6), 5)
     assert run.cycles[-1] == pytest.approx(10.0, rel=1e-12)
 
 
@@ -80,14 +82,14 @@ def test_refusal_proposes_the_largest_stable_update() -> None:
     bound = SPACING**2 / ROLLER
     law = archard(bound / 22.6 / SIGMA)
     with pytest.raises(ConvergenceError, match="take cycles_per_update = 22 or"):
-        run_per_cycle(flat(), law, (depth_limit(1.0),), 1e6, 100)
-    run_per_cycle(flat(), law, (depth_limit(0.1),), 1e6, 22)
+        run_per_cycle(WearProblem(flat(), law, (depth_limit(1.0),), 1e6), 100)
+    run_per_cycle(WearProblem(flat(), law, (depth_limit(0.1),), 1e6), 22)
 
 
 def test_refusal_proposes_fewer_nodes_where_one_cycle_is_too_much() -> None:
     law = archard(1.5 * SPACING**2 / ROLLER / SIGMA)
     with pytest.raises(ConvergenceError, match="take fewer nodes or"):
-        run_per_cycle(flat(), law, (depth_limit(1.0),), 1e6, 1)
+        run_per_cycle(WearProblem(flat(), law, (depth_limit(1.0),), 1e6), 1)
 
 
 @pytest.mark.parametrize("times", [1.0, 1.1, 1.5, 3.0, 10.0])
@@ -98,20 +100,20 @@ def test_bound_is_sharp_and_the_sawtooth_watch_stands_behind_it(times: float) ->
     """
     law, limit = archard(1e-8), (depth_limit(0.2),)
     with pytest.raises(ConvergenceError) as refusal:
-        run_per_cycle(reference(), law, limit, 1e6, 2000)
+        run_per_cycle(WearProblem(reference(), law, limit, 1e6), 2000)
     proposed = re.search(r"cycles_per_update = (\d+)", str(refusal.value))
     assert proposed is not None
     blind = replace(reference(), slip_curvature_exponent=0.0)
     assert law.diffusion(blind.kind, blind.slip_curvature_exponent) == 0.0
     update = int(times * int(proposed[1]))
     if times == 1.0:
-        run = run_per_cycle(blind, law, limit, 1e6, update)
+        run = run_per_cycle(WearProblem(blind, law, limit, 1e6), update)
         assert run.cycles[-1] == pytest.approx(8.1389e4, rel=5e-4)
     else:
         # Rounding decides which comes first: the teeth, or a tooth deep enough to end the contact.
         noticed = "alternates from point to point|conforms to the roller|would pull there"
         with pytest.raises((ConvergenceError, ContactError), match=noticed):
-            run_per_cycle(blind, law, limit, 1e6, update)
+            run_per_cycle(WearProblem(blind, law, limit, 1e6), update)
 
 
 @pytest.mark.parametrize("kind", [ContactKind.LOCAL, ContactKind.TRAVELLING])
@@ -139,9 +141,9 @@ def test_offset_form_is_the_general_loop(law: WearLaw, kind: ContactKind) -> Non
         modulus=MODULUS,
     ).contact
     limit = (depth_limit(0.004),)
-    fast = run_per_cycle(given, law, limit, 1e6, 1)
+    fast = run_per_cycle(WearProblem(given, law, limit, 1e6), 1)
     # The general loop under the same contact; its spacing is that of the worn points.
-    slow = run_per_cycle(replace(given, offset_form=False), law, limit, 1e6, 1)
+    slow = run_per_cycle(WearProblem(replace(given, offset_form=False), law, limit, 1e6), 1)
     assert fast.cycles[-1] == pytest.approx(slow.cycles[-1], rel=1e-11)
     for one, other in ((fast.depth, slow.depth), (fast.x, slow.x), (fast.y, slow.y)):
         np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-10)
@@ -151,7 +153,9 @@ def test_offset_form_is_the_general_loop(law: WearLaw, kind: ContactKind) -> Non
 def test_last_update_ends_on_the_limit(cycles_per_update: int) -> None:
     """N = depth / I, not the next whole update."""
     step = 3.7e-6
-    run = run_per_cycle(flat(), archard(step / SIGMA), (depth_limit(DEPTH),), 1e6, cycles_per_update)
+    run = run_per_cycle(
+        WearProblem(flat(), archard(step / SIGMA), (depth_limit(DEPTH),), 1e6), cycles_per_update
+    )
     assert run.met is not None
     assert run.met.name == "critical_depth_mm"
     assert run.cycles[-1] == pytest.approx(DEPTH / step, rel=1e-9)
@@ -162,7 +166,7 @@ def test_last_update_ends_on_the_limit(cycles_per_update: int) -> None:
 
 def test_horizon_ends_a_run_without_a_limit() -> None:
     step = 1e-6
-    run = run_per_cycle(flat(), archard(step / SIGMA), (depth_limit(DEPTH),), 1234.0, 10)
+    run = run_per_cycle(WearProblem(flat(), archard(step / SIGMA), (depth_limit(DEPTH),), 1234.0), 10)
     assert run.met is None
     assert run.cycles[-1] == 1230.0
     np.testing.assert_allclose(run.depth[-1], 1230.0 * step, rtol=1e-9)
@@ -170,20 +174,20 @@ def test_horizon_ends_a_run_without_a_limit() -> None:
 
 def test_horizon_shorter_than_an_update_is_refused() -> None:
     with pytest.raises(ConvergenceError, match="must hold at least one update of 10 cycles"):
-        run_per_cycle(flat(), archard(1e-12), (depth_limit(DEPTH),), 5.0, 10)
+        run_per_cycle(WearProblem(flat(), archard(1e-12), (depth_limit(DEPTH),), 5.0), 10)
 
 
 def test_second_limit_in_the_middle_of_a_block_is_met_to_the_cycle() -> None:
     """A limit on the tip's y stops where the flank has receded by 0.0031 mm there."""
     step = 1e-6
     tip = StopLimit("tip", -0.0031, lambda x, y, depth: float(y[-1]) + 0.0031)
-    run = run_per_cycle(flat(), archard(step / SIGMA), (depth_limit(DEPTH), tip), 1e6, 1)
+    run = run_per_cycle(WearProblem(flat(), archard(step / SIGMA), (depth_limit(DEPTH), tip), 1e6), 1)
     assert run.met is tip
     assert run.cycles[-1] == pytest.approx(3100.0, rel=1e-9)
 
 
 def test_snapshots_are_some_and_increase() -> None:
-    run = run_per_cycle(flat(), archard(1e-7 / SIGMA), (depth_limit(DEPTH),), 1e6, 1)
+    run = run_per_cycle(WearProblem(flat(), archard(1e-7 / SIGMA), (depth_limit(DEPTH),), 1e6), 1)
     assert 100 <= run.cycles.size <= 200
     assert (np.diff(run.cycles) > 0.0).all()
     assert run.cycles[0] == 0.0
@@ -193,4 +197,4 @@ def test_snapshots_are_some_and_increase() -> None:
 @pytest.mark.parametrize(("contact", "match"), [(flat(path=0.0), "slide"), (flat(load=0.0), "touch")])
 def test_no_slip_or_no_load_is_an_error(contact: FlankContact, match: str) -> None:
     with pytest.raises(ContactError, match=match):
-        run_per_cycle(contact, archard(1e-9), (depth_limit(DEPTH),), 1e6, 1)
+        run_per_cycle(WearProblem(contact, archard(1e-9), (depth_limit(DEPTH),), 1e6), 1)

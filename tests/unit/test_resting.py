@@ -5,17 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.drives import depth_limit
 from wearsim.contact.engagement import ContactKind
 from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
-from wearsim.contact.stop_limits import StopLimit, depth_limit
+from wearsim.contact.stop_limits import StopLimit
 from wearsim.errors import ContactError, ConvergenceError, JumpError
 from wearsim.geometry.profile_points import Profile
 from wearsim.kernels import event_rows as kernels
 from wearsim.kernels import wrap_wear as engine
 from wearsim.wear.implicit_steps import run_resting, run_seated
 from wearsim.wear.law import archard, drozdov
-from wearsim.wear.per_cycle import run_per_cycle
-from wearsim.wear.resting_bodies import StartState
+from wearsim.wear.loop import run_per_cycle
+from wearsim.wear.problem import StartState, WearProblem
 
 MODULUS = 2.1e5 / (2.0 * 0.91)
 RATE = 1e-11
@@ -124,7 +125,7 @@ def test_worn_width():
 
 
 def test_limit_is_met_exactly_and_the_last_step_is_cut():
-    run = run_resting(Seat(), LAW, LIMIT, 1e9, 0)
+    run = run_resting(WearProblem(Seat(), LAW, LIMIT, 1e9), 0)
     assert run.met is LIMIT[0]
     assert run.depth[-1].max() == pytest.approx(2e-3, rel=1e-12)
     assert (np.diff(run.cycles) > 0.0).all()
@@ -132,7 +133,7 @@ def test_limit_is_met_exactly_and_the_last_step_is_cut():
 
 
 def test_horizon_is_met_exactly():
-    run = run_resting(Seat(), LAW, LIMIT, 17.25, 0)
+    run = run_resting(WearProblem(Seat(), LAW, LIMIT, 17.25), 0)
     assert run.met is None
     assert run.cycles[-1] == 17.25
 
@@ -142,10 +143,7 @@ def test_first_step_is_small_whatever_the_law():
     for law in (LAW, drozdov(1e-9, 1.0, 2000.0, 100.0, 0.8), drozdov(1e-6, 2.0, 2000.0, 1.0, -1.0)):
         once = iter([True])
         run = run_resting(
-            Seat(count=1e-3),
-            law,
-            (depth_limit(1e-4),),
-            1e15,
+            WearProblem(Seat(count=1e-3), law, (depth_limit(1e-4),), 1e15),
             0,
             watch=lambda part, once=once: next(once, False),
         )
@@ -156,7 +154,7 @@ def test_first_step_is_small_whatever_the_law():
 
 @pytest.mark.parametrize("count", [0.5, 2.0])
 def test_how_often_an_event_comes(count):
-    once, other = (run_resting(Seat(count=n), LAW, LIMIT, 1e9, 2) for n in (1.0, count))
+    once, other = (run_resting(WearProblem(Seat(count=n), LAW, LIMIT, 1e9), 2) for n in (1.0, count))
     assert other.cycles[-1] == pytest.approx(once.cycles[-1] / count, rel=1e-9)
 
 
@@ -164,22 +162,22 @@ def test_how_often_an_event_comes(count):
 def test_speed_enters_by_its_power(exponent):
     """Drozdov's form at v = v0 is the power law; at 9 v0 it is 9^n times that."""
     law = drozdov(1000.0 * RATE, 1.0, 1000.0, 50.0, exponent)
-    base, fast = (run_resting(Seat(speed=v), law, LIMIT, 1e9, 2) for v in (50.0, 450.0))
-    line = run_resting(Seat(), LAW, LIMIT, 1e9, 2)
+    base, fast = (run_resting(WearProblem(Seat(speed=v), law, LIMIT, 1e9), 2) for v in (50.0, 450.0))
+    line = run_resting(WearProblem(Seat(), LAW, LIMIT, 1e9), 2)
     assert base.cycles[-1] == pytest.approx(line.cycles[-1], rel=1e-8)
     assert fast.cycles[-1] == pytest.approx(base.cycles[-1] / 9.0**exponent, rel=1e-6)
 
 
 def test_two_bodies_under_one_load_wear_alike():
-    run = run_resting(Seat(bodies=2), LAW, LIMIT, 1e9, 0)
+    run = run_resting(WearProblem(Seat(bodies=2), LAW, LIMIT, 1e9), 0)
     np.testing.assert_array_equal(run.all_depth[:, 0], run.all_depth[:, 1])
-    one = run_resting(Seat(), LAW, LIMIT, 1e9, 0)
+    one = run_resting(WearProblem(Seat(), LAW, LIMIT, 1e9), 0)
     assert run.area == pytest.approx(2.0 * one.area, rel=1e-12)
 
 
 def test_the_limit_that_is_met_first_is_named():
     tip = StopLimit("min_tip_land_mm", 1.0, lambda x, y, depth: 1e-3 - float(depth.max()))
-    run = run_resting(Seat(), LAW, (*LIMIT, tip), 1e9, 0)
+    run = run_resting(WearProblem(Seat(), LAW, (*LIMIT, tip), 1e9), 0)
     assert run.met is tip
     assert run.depth[-1].max() == pytest.approx(1e-3, rel=1e-12)
 
@@ -187,7 +185,7 @@ def test_the_limit_that_is_met_first_is_named():
 def test_chain_grows_and_is_replaced():
     """2 % in 8 cycles: steps end on every replacement, and events meet the growth so far."""
     contact = Seat(growth=0.0025)
-    run = run_resting(contact, LAW, (depth_limit(1.0),), 20.0, 0)
+    run = run_resting(WearProblem(contact, LAW, (depth_limit(1.0),), 20.0), 0)
     assert run.mates[-1] == 3.0
     np.testing.assert_allclose(
         run.elongation, 0.0025 * (run.cycles - 8.0 * (run.mates - 1.0)), rtol=0.0, atol=1e-12
@@ -200,7 +198,7 @@ def test_chain_grows_and_is_replaced():
 
 
 def test_snapshots_are_thinned_and_keep_both_ends():
-    run = run_resting(Seat(), archard(1e3 * RATE), (depth_limit(1.0),), 2000.0, 0, 1.0)
+    run = run_resting(WearProblem(Seat(), archard(1e3 * RATE), (depth_limit(1.0),), 2000.0), 0, 1.0)
     assert run.updates == 2000
     assert 180 <= run.cycles.size <= 362
     assert (run.cycles[0], run.cycles[-1]) == (0.0, 2000.0)
@@ -211,7 +209,7 @@ def test_snapshots_are_thinned_and_keep_both_ends():
 def test_the_end_of_the_first_chain_is_kept():
     """At cycle 301 of 3000, an odd snapshot that thinning would drop."""
     contact = Seat(growth=0.02 / 301)
-    run = run_resting(contact, archard(1e3 * RATE), (depth_limit(1.0),), 3000.0, 0, 1.0)
+    run = run_resting(WearProblem(contact, archard(1e3 * RATE), (depth_limit(1.0),), 3000.0), 0, 1.0)
     end = int(np.abs(run.cycles - 301.0).argmin())
     assert run.cycles[end] == pytest.approx(301.0, rel=1e-9)
     assert (run.mates[end], run.mates[-1]) == (1.0, 10.0)
@@ -221,30 +219,30 @@ def test_the_end_of_the_first_chain_is_kept():
 def test_a_run_begun_worn_goes_on():
     """Two halves are the whole where the steps are the same."""
     law, limit = archard(1e4 * RATE), (depth_limit(1.0),)
-    whole = run_resting(Seat(growth=1e-4), law, limit, 100.0, 0, 1.0)
-    first = run_resting(Seat(growth=1e-4), law, limit, 50.0, 0, 1.0)
+    whole = run_resting(WearProblem(Seat(growth=1e-4), law, limit, 100.0), 0, 1.0)
+    first = run_resting(WearProblem(Seat(growth=1e-4), law, limit, 50.0), 0, 1.0)
     start = StartState(first.all_depth[-1], MateWear(float(first.elongation[-1])), 1)
-    second = run_resting(Seat(growth=1e-4), law, limit, 50.0, 0, 1.0, start=start)
+    second = run_resting(WearProblem(Seat(growth=1e-4), law, limit, 50.0, start), 0, 1.0)
     np.testing.assert_allclose(second.depth[-1], whole.depth[-1], rtol=0.0, atol=1e-4 * whole.depth.max())
     assert second.elongation[-1] == pytest.approx(whole.elongation[-1], rel=1e-12)
 
 
 def test_a_run_can_be_stopped():
-    run = run_resting(Seat(), LAW, LIMIT, 1e9, 0, watch=lambda part: False)
+    run = run_resting(WearProblem(Seat(), LAW, LIMIT, 1e9), 0, watch=lambda part: False)
     assert (run.updates, run.met) == (0, None)
 
 
 def test_per_cycle_goes_event_by_event():
     law = archard(1e4 * RATE)
-    per_cycle = run_per_cycle(Seat(), law, LIMIT, 1e9, 10)
+    per_cycle = run_per_cycle(WearProblem(Seat(), law, LIMIT, 1e9), 10)
     assert per_cycle.updates == np.ceil(0.1 * per_cycle.cycles[-1]) > 5
-    fine = run_resting(Seat(), LAW, LIMIT, 1e9, 3)
+    fine = run_resting(WearProblem(Seat(), LAW, LIMIT, 1e9), 3)
     assert 1e4 * per_cycle.cycles[-1] == pytest.approx(fine.cycles[-1], rel=0.02)
 
 
 def test_contacts_of_events_alone_have_no_stages():
     with pytest.raises(NotImplementedError, match="Seat can only be worn event by event"):
-        run_seated(Seat(), LAW, LIMIT, 1e9, 0)
+        run_seated(WearProblem(Seat(), LAW, LIMIT, 1e9), 0)
 
 
 # -- errors --------------------------------------------------------------------------------------
@@ -253,13 +251,13 @@ def test_contacts_of_events_alone_have_no_stages():
 @pytest.mark.parametrize("quantity", ["load", "slip", "count"])
 def test_nothing_to_wear_is_an_error(quantity):
     with pytest.raises(ContactError, match="contact at cycle 0: a loaded mate must slide"):
-        run_resting(Seat(**{quantity: 0.0}), LAW, LIMIT, 1e9, 0)
+        run_resting(WearProblem(Seat(**{quantity: 0.0}), LAW, LIMIT, 1e9), 0)
 
 
 @pytest.mark.parametrize("quantity", ["load", "slip"])
 def test_not_a_number_is_an_error(quantity):
     with pytest.raises((ContactError, ConvergenceError)):
-        run_resting(Seat(**{quantity: np.nan}), LAW, LIMIT, 1e9, 0, 1.0)
+        run_resting(WearProblem(Seat(**{quantity: np.nan}), LAW, LIMIT, 1e9), 0, 1.0)
 
 
 def test_a_roller_out_of_reach_is_an_error():
@@ -270,7 +268,7 @@ def test_a_roller_out_of_reach_is_an_error():
     table[kernels.EVENT_CENTRE_X] = -50.0
     contact.events = lambda *arguments: table
     with pytest.raises(ConvergenceError, match="the pressure of every mate must be found"):
-        run_resting(contact, LAW, LIMIT, 1e9, 0)
+        run_resting(WearProblem(contact, LAW, LIMIT, 1e9), 0)
 
 
 class Jumping(Seat):
@@ -286,7 +284,7 @@ class Jumping(Seat):
 
 def test_a_jump_ends_the_life():
     """With 1e-4 per cycle the last step begins before 100 cycles and ends after."""
-    run = run_resting(Jumping(growth=1e-4), LAW, (depth_limit(1.0),), 1e9, 0)
+    run = run_resting(WearProblem(Jumping(growth=1e-4), LAW, (depth_limit(1.0),), 1e9), 0)
     assert run.met is not None
     assert (run.met.name, run.met.limit) == ("min_slack_tension_N", 30.0)
     assert (np.diff(run.cycles) > 0.0).all()
@@ -297,7 +295,7 @@ def test_a_jump_ends_the_life():
 def test_a_jump_at_once_is_an_error():
     start = StartState(np.zeros((1, 151)), MateWear(0.015), 1)
     with pytest.raises(JumpError):
-        run_resting(Jumping(growth=1e-4), LAW, LIMIT, 1e9, 0, start=start)
+        run_resting(WearProblem(Jumping(growth=1e-4), LAW, LIMIT, 1e9, start), 0)
 
 
 # -- engagement ----------------------------------------------------------------------------------
@@ -341,7 +339,7 @@ class Pocket(Seat):
 def test_a_roller_in_a_pocket_wears_both_sides():
     """Each flank carries load/(2 cos 40 degrees), 3.2 mm from the middle, and wears as much."""
     law, cycles = archard(1e-9), 1.0
-    run = run_resting(Pocket(), law, (depth_limit(1.0),), cycles, 0, cycles)
+    run = run_resting(WearProblem(Pocket(), law, (depth_limit(1.0),), cycles), 0, cycles)
     depth, profile = run.depth[-1], Pocket().profile
     touched = np.abs(profile.x[depth > 0.0])
     assert (np.abs(touched - 5.0 * np.sin(np.radians(40.0))) < 0.2).all()
@@ -379,7 +377,7 @@ class Rubbed(Seat):
 @pytest.mark.parametrize("bodies", [1, 2])
 def test_rollers_lose_their_share_of_what_a_gap_loses(bodies):
     contact = Rubbed(bodies)
-    run = run_resting(contact, LAW, LIMIT, 1e9, 1)
+    run = run_resting(WearProblem(contact, LAW, LIMIT, 1e9), 1)
     lost = np.pi * (5.0**2 - (5.0 - run.mate_depth[-1]) ** 2)
     # The last step was cut back to the limit; what it left is linear in its part.
     assert lost == pytest.approx(3.0 * run.area / bodies, rel=1e-4)
@@ -389,13 +387,13 @@ def test_rollers_lose_their_share_of_what_a_gap_loses(bodies):
 def test_a_soft_core_of_the_tooth_does_not_soften_the_roller():
     """Below a layer of no depth the tooth wears five times as fast, its roller as before."""
     law = replace(LAW, case_depth=1e-12, core_factor=5.0)
-    run = run_resting(Rubbed(), law, LIMIT, 1e9, 2)
+    run = run_resting(WearProblem(Rubbed(), law, LIMIT, 1e9), 2)
     lost = np.pi * (5.0**2 - (5.0 - run.mate_depth[-1]) ** 2)
     assert lost == pytest.approx(3.0 * run.area / 5.0, rel=1e-3)
 
 
 def test_a_new_chain_brings_new_rollers():
-    run = run_resting(Rubbed(growth=1e-7), LAW, LIMIT, 1e9, 0)
+    run = run_resting(WearProblem(Rubbed(growth=1e-7), LAW, LIMIT, 1e9), 0)
     assert run.mates[-1] > 2.0
     starts = np.flatnonzero(np.diff(run.mates) > 0.0) + 1
     assert (run.mate_depth[starts] < run.mate_depth[starts - 1]).all()

@@ -7,8 +7,8 @@ IV.7), second differences of quadratics, and runs of far smaller steps.
 import numpy as np
 import pytest
 
+from tests.drives import depth_limit
 from wearsim.contact.engagement import ContactKind
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.kernels.controlled_steps import STATE_ROWS, between
 from wearsim.kernels.hertz_wear import flank_rate
@@ -18,6 +18,7 @@ from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard, power
+from wearsim.wear.problem import WearProblem
 
 
 def dense(rows: np.ndarray) -> np.ndarray:
@@ -149,7 +150,7 @@ def test_states_between_the_steps_are_as_good_as_the_life() -> None:
         modulus=1e5,
     ).contact
     given = contact, archard(1e-9), (depth_limit(0.05),), 1e15
-    loose, tight = run_advance(*given, 1e-2)[0], run_advance(*given, 1e-6)[0]
+    loose, tight = run_advance(WearProblem(*given), 1e-2)[0], run_advance(WearProblem(*given), 1e-6)[0]
     assert loose.updates < 0.2 * tight.updates
     assert loose.cycles[-1] == pytest.approx(tight.cycles[-1], rel=1e-3)
     np.testing.assert_allclose(loose.depth, tight.depth, rtol=0.0, atol=1e-3 * 0.05)

@@ -8,9 +8,9 @@ import pytest
 from scipy.optimize import approx_fprime
 
 import wearsim
+from tests.drives import depth_limit
 from wearsim.contact.hertz import half_width, peak_pressure
 from wearsim.contact.resting_engagement import NEW_MATE
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.kernels import wrap_seats as seats
 from wearsim.kernels import wrap_stage as stage
@@ -18,6 +18,7 @@ from wearsim.mechanisms.wrap.seating import phases_of_pitch
 from wearsim.wear import settled_run
 from wearsim.wear.implicit_steps import run_resting, run_seated
 from wearsim.wear.law import archard, drozdov, power
+from wearsim.wear.problem import WearProblem
 from wearsim.wear.resting_bodies import WornBodies
 from wearsim.wear.seated_bodies import SeatedBodies
 from wearsim.wear.settled_run import advance_resting, run_together, spared
@@ -104,7 +105,7 @@ def test_spread_keeps_the_area_and_moves_its_middle():
 def test_pull_of_the_rollers_is_the_slope_of_the_energy():
     """Central differences of the energy of three rollers on a seat."""
     of = contact("mechanism.friction_roller_tooth=0.2", "mechanism.friction_roller_bush=0.4")
-    bodies = WornBodies(of, LAW, None)
+    bodies = WornBodies(WearProblem(of, LAW, LIMIT, 1e12))
     places = of.seating(np.array([1e-9, 1.0, 0.0, np.inf, 1.0]), bodies.unworn)
     places.seat(bodies.area, bodies.x, bodies.y, NEW_MATE)
     mechanism, points = of.mechanism, bodies.unworn.shape[1]
@@ -176,7 +177,7 @@ def straight_wrap(degrees, tension, nodes, teeth):
 )
 def test_lightly_pulled_wraps_are_found_and_bear_the_strands(nodes, degrees, tension, teeth):
     """The rounding of their energy is above 1e-11 of it. Teeth and strands balance in each phase."""
-    bodies = SeatedBodies(straight_wrap(degrees, tension, nodes, teeth), LAW, None)
+    bodies = SeatedBodies(WearProblem(straight_wrap(degrees, tension, nodes, teeth), LAW, LIMIT, 1e12))
     bodies._seat()
     seating, mechanism = bodies.seating, bodies.contact.mechanism
     angle, event = mechanism.pitch_angle, 0
@@ -201,7 +202,7 @@ def test_lightly_pulled_wraps_are_found_and_bear_the_strands(nodes, degrees, ten
 
 def test_rollers_rest_as_on_rigid_teeth_but_for_what_these_yield():
     of = contact("mechanism.friction_roller_tooth=0.1", "mechanism.friction_roller_bush=0.2")
-    bodies = WornBodies(of, LAW, None)
+    bodies = WornBodies(WearProblem(of, LAW, LIMIT, 1e12))
     places = of.seating(np.array([1e-9, 1.0, 0.0, np.inf, 1.0]), bodies.unworn)
     places.seat(bodies.area, bodies.x, bodies.y, NEW_MATE)
     phase = float(places.phases[0, 1])
@@ -216,8 +217,8 @@ def test_rollers_rest_as_on_rigid_teeth_but_for_what_these_yield():
 def test_life_by_the_loop_over_events_with_small_steps():
     """Half-space and rigid places, first order: within 2 % of each other."""
     of = contact()
-    loop = run_resting(of, LAW, LIMIT, 1e12, 2)
-    assert life(run_seated(of, LAW, LIMIT, 1e12, 1)) == pytest.approx(life(loop), rel=0.02)
+    loop = run_resting(WearProblem(of, LAW, LIMIT, 1e12), 2)
+    assert life(run_seated(WearProblem(of, LAW, LIMIT, 1e12), 1)) == pytest.approx(life(loop), rel=0.02)
 
 
 @pytest.mark.wide
@@ -233,23 +234,23 @@ def test_life_by_the_loop_over_events_with_small_steps():
 )
 def test_laws_by_the_loop_over_events(law):
     of = contact()
-    loop = run_resting(of, law, LIMIT, 1e15, 1)
-    assert life(run_seated(of, law, LIMIT, 1e15, 1)) == pytest.approx(life(loop), rel=0.04)
+    loop = run_resting(WearProblem(of, law, LIMIT, 1e15), 1)
+    assert life(run_seated(WearProblem(of, law, LIMIT, 1e15), 1)) == pytest.approx(life(loop), rel=0.04)
 
 
 @pytest.mark.wide
 def test_shorter_steps_and_more_phases_hardly_move_a_life():
     """Usual steps, four phases: within 0.1 % of steps an eighth as long, 0.3 % of three times the phases."""
-    usual = life(run_seated(contact(), LAW, LIMIT, 1e12, 0))
-    assert usual == pytest.approx(life(run_seated(contact(), LAW, LIMIT, 1e12, 3)), rel=1e-3)
+    usual = life(run_seated(WearProblem(contact(), LAW, LIMIT, 1e12), 0))
+    assert usual == pytest.approx(life(run_seated(WearProblem(contact(), LAW, LIMIT, 1e12), 3)), rel=1e-3)
     assert usual == pytest.approx(
-        life(run_seated(contact("mechanism.phases=12"), LAW, LIMIT, 1e12, 0)), rel=3e-3
+        life(run_seated(WearProblem(contact("mechanism.phases=12"), LAW, LIMIT, 1e12), 0)), rel=3e-3
     )
 
 
 def test_area_closes():
     """The work of all pressures is what is missing of the outline, and k times load times way."""
-    run = run_seated(contact(), LAW, LIMIT, 1e12, 0)
+    run = run_seated(WearProblem(contact(), LAW, LIMIT, 1e12), 0)
     of = contact()
     missing = sum(
         wearsim.geometry.profile_points.area_between(of.profile.x, of.profile.y, x, y)
@@ -260,37 +261,38 @@ def test_area_closes():
 
 def test_twice_the_rate_is_half_the_life():
     of = contact("joint.specific_wear_rate_mm2_per_N=1e-16")
-    one, two = (life(run_seated(of, archard(k), LIMIT, 1e12, 0)) for k in (1e-9, 2e-9))
+    one, two = (life(run_seated(WearProblem(of, archard(k), LIMIT, 1e12), 0)) for k in (1e-9, 2e-9))
     assert one == pytest.approx(2.0 * two, rel=1e-6)
 
 
 def test_horizon_limit_and_watch():
     of = contact()
-    run = run_seated(of, LAW, LIMIT, 1e6, 0)
+    run = run_seated(WearProblem(of, LAW, LIMIT, 1e6), 0)
     assert run.met is None and run.cycles[-1] == 1e6
-    whole = run_seated(of, LAW, LIMIT, 1e12, 0)
+    whole = run_seated(WearProblem(of, LAW, LIMIT, 1e12), 0)
     assert whole.met is LIMIT[0] and whole.depth[-1].max() == pytest.approx(0.05, rel=1e-12)
-    assert run_seated(of, LAW, LIMIT, 1e12, 0, watch=lambda part: False).updates == 0
+    assert run_seated(WearProblem(of, LAW, LIMIT, 1e12), 0, watch=lambda part: False).updates == 0
 
 
 def test_nothing_to_wear_is_an_error():
     with pytest.raises(ContactError, match="contact at cycle 0: a loaded roller must slide"):
-        run_seated(contact(), archard(0.0), LIMIT, 1e12, 0)
+        run_seated(WearProblem(contact(), archard(0.0), LIMIT, 1e12), 0)
 
 
 def test_one_failing_run_fails_all_and_progress_rises():
     of, told = contact(), []
-    run_together([(of, -1), (of.coarsened(), -1)], LAW, LIMIT, 1e12, progress=told.append)
+    problem = WearProblem(of, LAW, LIMIT, 1e12)
+    run_together([(problem, -1), (problem.on(of.coarsened()), -1)], told.append)
     assert told == sorted(told) and told[0] == 0.0 and 0.9 < told[-1] <= 1.0
     with pytest.raises(ContactError):
-        run_together([(of, -1)], archard(0.0), LIMIT, 1e12)
+        run_together([(WearProblem(of, archard(0.0), LIMIT, 1e12), -1)])
 
 
 @pytest.mark.wide
 def test_steps_are_halved_where_the_error_asks_for_it():
     of, told = contact(), []
-    loose, error = advance_resting(of, LAW, LIMIT, 1e12, 0.1)
-    tight, less = advance_resting(of, LAW, LIMIT, 1e12, 0.5 * error, progress=told.append)
+    loose, error = advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.1)
+    tight, less = advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.5 * error, progress=told.append)
     assert told == sorted(told) and (told[0], told[-1]) == (0.0, 1.0)
     assert error <= 0.1 and tight.updates > 1.5 * loose.updates
     assert life(tight) == pytest.approx(life(loose), rel=error + less)
@@ -301,8 +303,8 @@ def test_phases_are_doubled_where_halved_steps_do_not_help(monkeypatch):
     stated = {(1, 0): 0.09, (1, 1): 0.08, (1, 2): 0.085, (2, 1): 0.03, (2, 2): 0.01}
     of, asked = contact("mechanism.phases=2"), []
 
-    def pair(contacts, *rest):
-        (fine, level), (coarse, below) = contacts
+    def pair(problems, *rest):
+        (fine, level), (coarse, below) = ((problem.contact, steps) for problem, steps in problems)
         asked.append((fine.phases // 2, level))
         assert (coarse.phases, below) == (max(1, fine.phases // 2), level - 1)
         return [stated[asked[-1]], 0.0]
@@ -310,19 +312,19 @@ def test_phases_are_doubled_where_halved_steps_do_not_help(monkeypatch):
     monkeypatch.setattr(settled_run, "run_together", pair)
     monkeypatch.setattr(settled_run, "difference", lambda run, coarse: 0.0)
     monkeypatch.setattr(settled_run, "spared", lambda run, limit, error: run)
-    assert advance_resting(of, LAW, LIMIT, 1e12, 0.02) == (0.01, 0.01)
+    assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.02) == (0.01, 0.01)
     assert asked == [(1, 0), (1, 1), (1, 2), (2, 1), (2, 2)]
     asked.clear()
-    assert advance_resting(of, LAW, LIMIT, 1e12, 0.04) == (0.03, 0.03)
+    assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.04) == (0.03, 0.03)
     assert asked == [(1, 0), (1, 1), (1, 2), (2, 1)]
     asked.clear()
-    assert advance_resting(of, LAW, LIMIT, 1e12, 0.09) == (0.09, 0.09)
+    assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.09) == (0.09, 0.09)
     assert asked == [(1, 0)]
 
 
 def test_a_life_that_a_new_chain_has_spared_is_uncertain():
     """0.96 of the limit at 6 of 10 cycles, where the first chain ends: by 5 % it may have ended there."""
-    trajectory = run_seated(contact(), LAW, LIMIT, 1e12, -1)
+    trajectory = run_seated(WearProblem(contact(), LAW, LIMIT, 1e12), -1)
     worn = np.zeros((4, 1, 3))
     worn[:, 0, 1] = 0.0, 0.048, 0.048, 0.05
     run = replace(
@@ -337,7 +339,7 @@ def test_a_life_that_a_new_chain_has_spared_is_uncertain():
 
 def test_a_run_that_loses_its_rollers_keeps_what_is_worn(monkeypatch):
     """It ends where they were found last, with a bound for the life and the reason among the warnings."""
-    whole = run_seated(contact(), LAW, LIMIT, 1e12, 0)
+    whole = run_seated(WearProblem(contact(), LAW, LIMIT, 1e12), 0)
     step = SeatedBodies.step
 
     def losing(self, cycles):
@@ -346,7 +348,7 @@ def test_a_run_that_loses_its_rollers_keeps_what_is_worn(monkeypatch):
         return step(self, cycles)
 
     monkeypatch.setattr(SeatedBodies, "step", losing)
-    lost = run_seated(contact(), LAW, LIMIT, 1e12, 0)
+    lost = run_seated(WearProblem(contact(), LAW, LIMIT, 1e12), 0)
     assert lost.met is None
     assert lost.lost.startswith("wear at cycle 1")
     assert 0.0 < life(lost) < life(whole)
@@ -363,4 +365,4 @@ def test_a_run_that_never_finds_its_rollers_fails(monkeypatch):
 
     monkeypatch.setattr(SeatedBodies, "step", losing)
     with pytest.raises(ConvergenceError, match="must be found"):
-        run_seated(contact(), LAW, LIMIT, 1e12, 0)
+        run_seated(WearProblem(contact(), LAW, LIMIT, 1e12), 0)

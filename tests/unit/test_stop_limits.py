@@ -5,17 +5,22 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tests.drives import STRAND, changed
+from tests.drives import STRAND, changed, depth_limit
 from wearsim.case.keys.wear_tables import StopTable
 from wearsim.case.model import Drive
 from wearsim.cli.schema import result_schema
-from wearsim.contact.stop_limits import LIMITS, depth_limit, first_limit_met, stop_limit
+from wearsim.contact.stop_limits import LIMITS, stop_limit
 from wearsim.drive.load_case import load_case
 from wearsim.mechanisms.gear_pair.keys import GearStopTable
 from wearsim.page.field_words import label
+from wearsim.wear.problem import WearProblem
 
 ZERO = np.zeros(3)
 ON_A_STRAND = ["critical_depth_mm", "case_depth_mm", "min_tip_land_mm", "min_tooth_thickness_mm"]
+
+
+def first_limit_met(limits, x, y, depth):
+    return WearProblem(None, None, limits, 1.0).met(x, y, depth)
 
 
 def tip_land(value):

@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 
 import wearsim
+from tests.drives import depth_limit
 from wearsim.contact.resting_engagement import MateWear
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import JumpError
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels import event_rows as kernels
 from wearsim.kernels.wrap_equilibrium import engaged
 from wearsim.wear.implicit_steps import run_resting
 from wearsim.wear.law import archard
+from wearsim.wear.problem import WearProblem
 
 CASE = {
     "format_version": 1,
@@ -161,7 +162,9 @@ def test_two_halves_of_the_duty_are_the_whole():
     of = contact()
     (block,) = of.blocks
     halves = replace(of, blocks=(replace(block, share=0.25), replace(block, share=0.75)))
-    runs = [run_resting(c, archard(1e-9), (depth_limit(0.02),), 1e12, 0, 1e5) for c in (of, halves)]
+    runs = [
+        run_resting(WearProblem(c, archard(1e-9), (depth_limit(0.02),), 1e12), 0, 1e5) for c in (of, halves)
+    ]
     assert runs[1].cycles[-1] == pytest.approx(runs[0].cycles[-1], rel=0.01)
 
 

@@ -11,7 +11,7 @@ import pytest
 import wearsim
 from wearsim.errors import CaseError
 from wearsim.lubrication.film import Lubricant, minimum_film
-from wearsim.simulation.film_ratio import film_ratio
+from wearsim.simulation.validity import film_ratio
 
 CASES = Path(__file__).parents[2] / "cases"
 FILM = ("film.viscosity_mPa_s=80", "film.pressure_viscosity_per_GPa=20", "film.roughness_um=0.5")

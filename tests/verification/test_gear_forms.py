@@ -14,9 +14,9 @@ import pytest
 from scipy.optimize import brentq
 
 import wearsim
+from tests.drives import depth_limit
 from wearsim.contact.hertz import contact_modulus, peak_pressure
 from wearsim.contact.prescribed_stress import LineLoad, LoadedPair, StressProfile
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.contact.synthesised_pair import SynthesisedPair
 from wearsim.errors import GeometryError
 from wearsim.geometry.gear.convex_concave import ConvexConcave
@@ -29,6 +29,7 @@ from wearsim.kernels.gear_pair import turned_by_depth
 from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard
+from wearsim.wear.problem import WearProblem
 
 CASES = Path(__file__).parents[2] / "cases"
 STEEL = contact_modulus((2.1e5, 2.1e5), (0.3, 0.3))
@@ -115,7 +116,7 @@ def test_sliding_is_the_difference_of_both_ways(name: str) -> None:
     pair = PAIRS[name]
     of = GearPairMechanism(pair, 400.0 * pair.circles.pinion_radius, 10.0, STEEL, 1.0, 0.0, 2001)
     mesh = of.mesh
-    run, _ = run_advance(of.contact, archard(1e-10), (depth_limit(0.02),), 1e12, 1e-4)
+    run, _ = run_advance(WearProblem(of.contact, archard(1e-10), (depth_limit(0.02),), 1e12), 1e-4)
     way = np.diff(mesh.arc, axis=1)
     depth, cycles = run.depth[-1], run.cycles[-1]
     load = 400.0 * pair.circles.pinion_radius * of.share / mesh.lever

@@ -14,13 +14,14 @@ import pytest
 from scipy.optimize import brentq
 
 import wearsim
+from tests.drives import depth_limit
 from wearsim.contact.hertz import contact_modulus, half_width, peak_pressure
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.errors import GeometryError
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard, power
+from wearsim.wear.problem import WearProblem
 
 C14 = InvolutePair((16, 24), 4.5, math.radians(20.0), (0.1817, 0.1715), (41.318, 59.272))
 MODULUS = contact_modulus((2.06e5, 2.06e5), (0.3, 0.3))
@@ -97,7 +98,7 @@ def test_initial_wear_per_mesh(validated: Callable[..., None], name: str) -> Non
 def test_rigid_flanks_wear_at_a_constant_rate() -> None:
     """Archard: h = k q |1 - v2/v1| N at every point, whatever the flanks look like."""
     of = mechanism()
-    run, _ = run_advance(of.contact, archard(RATE), (depth_limit(0.02),), 1e12, 1e-4)
+    run, _ = run_advance(WearProblem(of.contact, archard(RATE), (depth_limit(0.02),), 1e12), 1e-4)
     ratio = (C14.line_length - of.place) / (C14.ratio * of.place)
     expected = RATE * LINE_LOAD * of.share * np.abs(1.0 - ratio) * run.cycles[-1]
     np.testing.assert_allclose(run.depth[-1], expected, rtol=1e-6)
@@ -200,8 +201,8 @@ def test_driving_and_driven_gear_change_places() -> None:
     swapped = InvolutePair((24, 16), 4.5, C14.pressure_angle, (0.1715, 0.1817), (59.272, 41.318))
     other = GearPairMechanism(swapped, 1.5 * TORQUE, 10.0 / 1.5, MODULUS, 1.0, 14000.0, 401)
     law = archard(RATE)
-    first, _ = run_advance(one.contact, law, (depth_limit(1.0),), 1e6, 1e-5)
-    second, _ = run_advance(other.contact, law, (depth_limit(1.0),), 1e6 / 1.5, 1e-5)
+    first, _ = run_advance(WearProblem(one.contact, law, (depth_limit(1.0),), 1e6), 1e-5)
+    second, _ = run_advance(WearProblem(other.contact, law, (depth_limit(1.0),), 1e6 / 1.5), 1e-5)
     wheel = one.mate_columns(first.depth)["wheel_depth_mm"][-401:]
     np.testing.assert_allclose(second.depth[-1][::-1], wheel, rtol=1e-4, atol=1e-7)
     pinion = other.mate_columns(second.depth)["wheel_depth_mm"][-401:]
@@ -217,7 +218,7 @@ def test_power_law_follows_the_curvature_of_both_flanks() -> None:
     """m = 3, worn for a short time: dh/dN = K c_m p^2 (4/pi) q slip with the new curvature."""
     of = mechanism(points=101)
     law = power(1e-16, 3.0)
-    run, _ = run_advance(of.contact, law, (depth_limit(1.0),), 1.0, 1e-4)
+    run, _ = run_advance(WearProblem(of.contact, law, (depth_limit(1.0),), 1.0), 1e-4)
     load = LINE_LOAD * of.share
     p0 = np.sqrt(load * of.curvature * MODULUS / math.pi)
     # Mean of (1 - (x/a)^2)^(3/2) over the width is 3 pi/16.
@@ -233,7 +234,7 @@ def test_lives_converge_with_the_points(stiffness: float) -> None:
     law, limit = power(RATE / 1000.0, 2.0), (depth_limit(0.02),)
     lives = []
     for points in (101, 201, 401):
-        run, _ = run_advance(mechanism(stiffness, points).contact, law, limit, 1e12, 1e-4)
+        run, _ = run_advance(WearProblem(mechanism(stiffness, points).contact, law, limit, 1e12), 1e-4)
         lives.append(run.cycles[-1])
     assert lives[0] == pytest.approx(lives[2], rel=5e-3)
     assert lives[1] == pytest.approx(lives[2], rel=2e-3)

@@ -127,6 +127,6 @@ def test_life_on_the_strand_hardly_depends_on_the_nodes(exponent: float) -> None
 
 def test_a_solve_that_takes_too_much_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """8 rows of 201 points of 8 bytes are 12 864 a step: 7 steps in 1e5 bytes, too few for any life."""
-    monkeypatch.setattr("wearsim.wear.advance._MOST_BYTES", 1e5)
+    monkeypatch.setattr("wearsim.wear.solve._MOST_BYTES", 1e5)
     with pytest.raises(WearsimError, match=r"within 7 steps.*larger run\.life_tolerance, or fewer nodes"):
         wearsim.simulate(strand(1.0, "sprocket.nodes=201", "run.life_tolerance=1e-5"))

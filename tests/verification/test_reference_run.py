@@ -12,11 +12,12 @@ import pytest
 import shapely
 
 import wearsim
-from wearsim.contact.stop_limits import depth_limit
+from tests.drives import depth_limit
 from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.simulation.wear_task import wear_task
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import power
+from wearsim.wear.problem import WearProblem
 
 CaseMaker = Callable[..., wearsim.Case]
 
@@ -108,7 +109,7 @@ def test_infeasible_offset_4_is_still_a_valid_number(
     """At h = 4.0 the leaving roller cuts the flank, so only the engine can be asked."""
     mechanism = reference_mechanism(nodes=401, offset=4.0)
     law = power({1: 1e-8, 2: 1e-11}[exponent], exponent)
-    run, _ = run_advance(mechanism.contact, law, (depth_limit(0.2),), 1e9, 1e-4)
+    run, _ = run_advance(WearProblem(mechanism.contact, law, (depth_limit(0.2),), 1e9), 1e-4)
     quantity = f"life with an offset of 4 mm, m = {exponent:g}"
     source, shown = "two independent programs", exponent == 1
     validated(quantity, run.cycles[-1], life, 5e-4, source, "cycles", page=shown)

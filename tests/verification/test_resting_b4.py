@@ -9,13 +9,14 @@ of linear wear is k q s for any pressure where its directions are parallel.
 import numpy as np
 import pytest
 
+from tests.drives import depth_limit
 from wearsim.contact.resting_engagement import NEW_MATE, RestingContact
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.geometry.profile_points import Profile, area_between
 from wearsim.kernels import event_rows as kernels
 from wearsim.wear.implicit_steps import run_resting
 from wearsim.wear.law import archard, power
-from wearsim.wear.resting_bodies import StartState, highest_load
+from wearsim.wear.problem import StartState, WearProblem
+from wearsim.wear.resting_bodies import highest_load
 
 R, q, k = 6.035, 100.0, 1e-7
 MODULUS = 2.1e5 / (2.0 * 0.91)
@@ -81,7 +82,7 @@ def slid(sliding, *, steps=0, level=1, law=None, **outline):
     """Wear the flat by so many cycles of 1 mm of sliding, in so many equal steps if any."""
     contact = Resting((0.0, q, 1.0, 1.0, 0), **outline)
     size = sliding / steps if steps else 0.0
-    return run_resting(contact, law or archard(k), NEVER, sliding, level, size)
+    return run_resting(WearProblem(contact, law or archard(k), NEVER, sliding), level, size)
 
 
 def half_width(run):
@@ -141,7 +142,7 @@ def test_first_order_in_the_level():
     """The life by steps of a depth: the same way, halved from level to level."""
     contact = Resting((0.0, q, 1.0, 1.0, 0))
     limit = (depth_limit(5e-3),)
-    lives = [run_resting(contact, archard(k), limit, 1e9, n).cycles[-1] for n in range(5)]
+    lives = [run_resting(WearProblem(contact, archard(k), limit, 1e9), n).cycles[-1] for n in range(5)]
     change = np.abs(np.diff(lives))
     np.testing.assert_allclose(change[1:] / change[:-1], 0.5, atol=0.12)
     assert change[0] < 5e-3 * lives[-1]
@@ -163,7 +164,7 @@ def test_area_is_k_q_s(validated, level):
         (0.1, 0.0, 2.0, 1.0, 1),
     )
     contact = Resting(*places, radius=1e6, bodies=2, half=1.2)
-    run = run_resting(contact, archard(1e-4), (depth_limit(1e-5),), 300.0, level)
+    run = run_resting(WearProblem(contact, archard(1e-4), (depth_limit(1e-5),), 300.0), level)
     worn = sum(load * path * count for _, load, path, count, _ in places)
     cycles = run.cycles[-1]
     assert run.met is not None and cycles < 300.0
@@ -187,10 +188,10 @@ def test_area_is_that_between_the_outlines():
 def test_bodies_wear_alone():
     """A body wears as if the other were not there."""
     near, far = (0.0, q, 1.0, 1.0, 0), (0.1, 2.0 * q, 0.5, 1.0, 1)
-    both = run_resting(Resting(near, far, bodies=2), archard(k), NEVER, 100.0, 0, 2.0)
+    both = run_resting(WearProblem(Resting(near, far, bodies=2), archard(k), NEVER, 100.0), 0, 2.0)
     for body, place in enumerate((near, far)):
         alone = Resting((*place[:4], 0))
-        run = run_resting(alone, archard(k), NEVER, 100.0, 0, 2.0)
+        run = run_resting(WearProblem(alone, archard(k), NEVER, 100.0), 0, 2.0)
         np.testing.assert_array_equal(run.depth[-1], both.all_depth[-1, body])
     assert both.depth[-1].max() == both.all_depth[-1].max()
 
@@ -201,7 +202,7 @@ def test_order_of_events_matters_less_with_smaller_steps():
     change = []
     for steps in (10, 40):
         runs = [
-            run_resting(Resting(*order), archard(k), NEVER, 81.0, 0, 81.0 / steps).depth[-1]
+            run_resting(WearProblem(Resting(*order), archard(k), NEVER, 81.0), 0, 81.0 / steps).depth[-1]
             for order in ((light, heavy), (heavy, light))
         ]
         change.append(np.abs(runs[0] - runs[1]).max() / runs[0].max())

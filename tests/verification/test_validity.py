@@ -12,14 +12,15 @@ import numpy as np
 import pytest
 
 import wearsim
+from tests.drives import depth_limit
 from wearsim.contact.engagement import ContactKind, FlankContact
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.geometry.profile_points import Profile
 from wearsim.jit.compiled import kernel
 from wearsim.jit.signatures import CONTACT
 from wearsim.kernels.prescribed import prescribed_contact
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import archard
+from wearsim.wear.problem import WearProblem
 from wearsim.wear.trajectory import Trajectory, check_fold
 
 CaseMaker = Callable[..., wearsim.Case]
@@ -208,7 +209,7 @@ def test_stall_has_cycle_and_place() -> None:
             slip[3] = np.nan
 
     with pytest.raises(wearsim.ConvergenceError, match=r"cycle [\d.e+]+, 3 mm from the root.*go on"):
-        run_advance(flat_contact(stalling), archard(1e-9), (depth_limit(0.1),), 1e9, 1e-3)
+        run_advance(WearProblem(flat_contact(stalling), archard(1e-9), (depth_limit(0.1),), 1e9), 1e-3)
 
 
 @pytest.mark.slow
@@ -223,7 +224,7 @@ def test_vanished_contact_has_cycle_and_place() -> None:
             load[:] = 0.0
 
     with pytest.raises(wearsim.ContactError, match=r"cycle [\d.e+]+, deepest 5 mm from.*touches no"):
-        run_advance(flat_contact(vanishing), archard(1e-9), (depth_limit(0.1),), 1e9, 1e-3)
+        run_advance(WearProblem(flat_contact(vanishing), archard(1e-9), (depth_limit(0.1),), 1e9), 1e-3)
 
 
 def test_flank_turned_over_has_cycle_and_place() -> None:

@@ -21,8 +21,8 @@ from wearsim.errors import CaseError, ConvergenceError
 from wearsim.kernels.severity import t_gamma_rate
 from wearsim.simulation.wear_task import wear_law
 from wearsim.study.remaining.model import SingleReading, remaining_life
-from wearsim.wear.cycles_power import CyclesPower
 from wearsim.wear.mate_clock import LubricatedClock, MateClock
+from wearsim.wear.running_in import CyclesPower
 from wearsim.wear.severe_wear import severe_multiple, t_gamma_energy
 
 CaseMaker = Callable[..., wearsim.Case]

@@ -15,15 +15,16 @@ import pytest
 from numpy.typing import NDArray
 
 import wearsim
+from tests.drives import depth_limit
 from wearsim.contact.resting_engagement import NEW_MATE, MateWear
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.geometry.profile_points import area_between
 from wearsim.kernels import event_rows as kernels
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.equilibrium import WrapLoads, WrapMechanism
 from wearsim.wear.implicit_steps import RestingTrajectory, run_resting
 from wearsim.wear.law import archard, power
-from wearsim.wear.resting_bodies import StartState, highest_load
+from wearsim.wear.problem import StartState, WearProblem
+from wearsim.wear.resting_bodies import highest_load
 
 Array = NDArray[np.float64]
 
@@ -60,7 +61,7 @@ def wear(
 ) -> RestingTrajectory:
     """Run until a depth or a horizon."""
     law = archard(COEFFICIENT * factor)
-    return run_resting(of, law, (depth_limit(depth),), horizon, level, step)
+    return run_resting(WearProblem(of, law, (depth_limit(depth),), horizon), level, step)
 
 
 def events(of: WrapContact, elongation: float = 0.0) -> Array:
@@ -346,7 +347,7 @@ def test_power_law_wears_less_where_pressure_is_low() -> None:
     """m = 2 with the coefficient of m = 1 at 250 MPa: fast while the scar is narrow, then slow."""
     of = contact("mechanism.phases=2")
     law = power(COEFFICIENT / 250.0, 2.0)
-    square = run_resting(of, law, (depth_limit(0.02),), ENDLESS, 0)
+    square = run_resting(WearProblem(of, law, (depth_limit(0.02),), ENDLESS), 0)
     line = wear(of, depth=0.02)
     first, last = (
         highest_load(of, law, StartState(depth, NEW_MATE, 1))[0] for depth in line.all_depth[[0, -1]]
@@ -429,7 +430,7 @@ def test_a_new_chain_on_a_worn_sprocket_is_the_same_run_gone_on() -> None:
     assert first.met is None and first.elongation[-1] == pytest.approx(0.03, rel=1e-9)
     start = StartState(depth=first.all_depth[-1], wear=NEW_MATE, mate=2)
     law, limit = archard(COEFFICIENT), (depth_limit(DEPTH),)
-    rest = run_resting(of, law, limit, ENDLESS, 0, start=start)
+    rest = run_resting(WearProblem(of, law, limit, ENDLESS, start), 0)
     assert 6e6 + rest.cycles[-1] == pytest.approx(run.cycles[-1], rel=2e-3)
     assert rest.mates[-1] == run.mates[-1]
 

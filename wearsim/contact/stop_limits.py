@@ -158,20 +158,6 @@ def stop_limit(name: str, limit: float, value: "Callable[[Vector, Vector, Vector
     return StopLimit(name, limit, lambda x, y, depth: limit - value(x, y, depth))
 
 
-def depth_limit(critical_depth: float) -> StopLimit:
-    """Return the source's stop limit, physics.md (12): the deepest point reaches a depth."""
-    return stop_limit("critical_depth_mm", critical_depth, lambda x, y, depth: float(depth.max()))
-
-
 def jump_limit(slack_tension: float) -> StopLimit:
     """Return the stop limit that a chain meets when it jumps on the worn teeth."""
     return StopLimit("min_slack_tension_N", slack_tension, lambda x, y, depth: 0.0)
-
-
-def first_limit_met(
-    stop_limits: tuple[StopLimit, ...], x: "Vector", y: "Vector", depth: "Vector"
-) -> StopLimit | None:
-    """Return the stop limit that a worn flank fails by most, if any."""
-    margins = [(stop_limit.margin(x, y, depth), stop_limit) for stop_limit in stop_limits]
-    worst = min(margins, key=lambda pair: pair[0])
-    return worst[1] if worst[0] <= 0.0 else None

@@ -56,7 +56,7 @@ class MechanismEntry:
 _FLANK_KERNELS = (
     "flank_geometry.flank_frame",
     "rosenbrock.rosenbrock_step",
-    "controlled_steps.wear_in_steps",
+    "controlled_steps.wear_flanks",
     "controlled_steps.states_between",
 )
 _CHAIN = "wearsim.case.keys:CaseTables"

@@ -40,15 +40,13 @@ if TYPE_CHECKING:
 STATE_ROWS = 8
 """Of a state on the path: x, y, depth, rate, the direction a point recedes in (2), 1/rho_H."""
 
-TIME, STEP, WRITTEN, RATES, END = range(5)
+TIME, STEP, WRITTEN, RATES, END, STATUS = range(6)
 """Of the clock: time, next step, states on the path, rates evaluated, time at which the run has
-ended within its last step. A clock of zeros starts a run."""
-CLOCK = 5
+ended within its last step, how it stands. A clock of zeros starts a run."""
+CLOCK = 6
 
-LOOSEST, FINEST, TIGHTEST = 1e-3, 1e-9, 0.9e-11
-PART_OF_TOLERANCE = 0.1
-"""A run starts with this part of the tolerance of the life between the first two, and with a tenth of
-it again and again, not below the third, until two lives agree."""
+MODULUS, DIFFUSION, LIMIT, TOLERANCE, END_TIME = range(5)
+"""Of the numbers of a flank: E*, e, depth allowed, tolerance of a step, time at which it ends in any case."""
 
 FIRST_STEP = 0.1
 """Depth of the first step tried, in parts of the depth allowed and of the cube root of the
@@ -300,3 +298,81 @@ def wear_in_steps(
             clock[STEP] = step * max(LEAST, shorter)
         clock[TIME] += step
         clock[STEP] = step * min(grown, SAFETY / max(error, 1e-9) ** (1.0 / 3.0))
+
+
+@kernel(void(VECTOR, VECTOR, CUBE, TABLE))
+def go_to_end(clock: Vector, times: Vector, path: Vector, state: Vector) -> None:
+    """Leave ``state`` where the last step on the path has ended."""
+    last = (int(clock[WRITTEN]) - 1) % times.size
+    before = (last - 1) % times.size
+    step = times[last] - times[before]
+    part = (clock[END] - times[before]) / step
+    for row in range(3):
+        for j in range(state.shape[1]):
+            state[row, j] = between(path[before], path[last], step, row, part, j)
+
+
+@kernel(
+    void(
+        STEP_FUNCTION,
+        CONTACT_FUNCTION,
+        CUBE,
+        TABLE,
+        CUBE,
+        TABLE,
+        TABLE,
+        int64,
+        int64,
+        TABLE,
+        TABLE,
+        TABLE,
+        TABLE,
+        CUBE,
+    )
+)
+def wear_flanks(
+    make_step: Callable[..., float],
+    contact: Callable[..., None],
+    states: Vector,
+    constants: Vector,
+    columns: Vector,
+    numbers: Vector,
+    laws: Vector,
+    ends: int,
+    most_states: int,
+    work: Vector,
+    increments: Vector,
+    clocks: Vector,
+    times: Vector,
+    path: Vector,
+) -> None:
+    """Wear flanks in steps, one after the other: first index of all arrays but those to work in.
+
+    ``path``: the states of the first flank at its ``times``, then those of the next. A state that
+    has come to its limit or horizon is left there.
+    """
+    for i in range(states.shape[0]):
+        own = path[i * times.shape[1] : (i + 1) * times.shape[1]]
+        status = wear_in_steps(
+            make_step,
+            contact,
+            states[i],
+            constants[i],
+            columns[i],
+            numbers[i, MODULUS],
+            laws[i],
+            numbers[i, DIFFUSION],
+            ends,
+            numbers[i, LIMIT],
+            numbers[i, TOLERANCE],
+            numbers[i, END_TIME],
+            most_states,
+            work,
+            increments,
+            clocks[i],
+            times[i],
+            own,
+        )
+        clocks[i, STATUS] = status
+        if status in (DEPTH_REACHED, HORIZON):
+            go_to_end(clocks[i], times[i], own, states[i])

@@ -44,10 +44,9 @@ def verify_grid(case: Case) -> "GridStudy":
 def case_clock(case: Case) -> "LubricatedClock":
     """Return the clock of the wear of a case, in its cycles, without a run."""
     if case.drive.rests:
-        from wearsim.simulation.wrap_life import wrap_of, wrap_problem
+        from wearsim.simulation.wrap_life import wrap_of, wrap_task
 
-        *_, clock = wrap_problem(case, wrap_of(case).contact(case))
-        return clock
+        return wrap_task(case, wrap_of(case).contact(case)).clock
     from wearsim.simulation.wear_task import wear_task
 
     return wear_task(case, case.drive.mechanism(case).contact).clock

@@ -11,14 +11,18 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.contact.engagement import FlankContact
+from wearsim.contact.hertz import half_width
 from wearsim.errors import WearsimError
+from wearsim.kernels.hertz_wear import DEPTH, LOAD, RELATIVE, flank_rate
+from wearsim.kernels.rosenbrock import WORK_ROWS
 from wearsim.result import Life, LowerBound, life_of
-from wearsim.simulation.flank_grids import LEVELS, GridSearch, SettledLife, settle_grid
+from wearsim.simulation.flank_grids import LEVELS, FlankRun, GridSearch, SettledLife, settle_grid
 from wearsim.simulation.lubricant import late_relubrication
 from wearsim.simulation.validity import few_cycles, low_contact_ratio_in_the_end, wide_contact
 from wearsim.simulation.wear_task import WearTask, wear_tasks
-from wearsim.wear.accuracy import depth_missed
-from wearsim.wear.flank_batch import BatchFlank, BatchResult, advance_batch
+from wearsim.wear.advance import advance_batch
+from wearsim.wear.problem import WearProblem
+from wearsim.wear.trajectory import Trajectory
 
 _BATCH = 32
 """Flanks of one compiled call."""
@@ -43,17 +47,40 @@ class CaseLife:
     parts: Mapping[str, Life | LowerBound] = field(default_factory=dict)
 
 
+Worn = tuple[Trajectory, float] | None
+"""Start and end of a flank over cycles times coefficient, and the error of its steps, if they are found."""
+
+
+class _AloneError(Exception):
+    """A case whose runs in batches do not tell its life."""
+
+
+@dataclass(frozen=True, eq=False)
+class _BatchRun(FlankRun):
+    """A run of which only start and end are known."""
+
+    def change(self, other: FlankRun) -> float:
+        """Return the relative difference to another that ended in the same way."""
+        if (self.trajectory.met is None) != (other.trajectory.met is None):
+            raise _AloneError
+        return super().change(other)
+
+
 @dataclass(frozen=True, eq=False)
 class _FlankJob:
     """A flank of a case on one grid, for a batch."""
 
-    task: WearTask
+    task: WearTask[FlankContact]
 
     @property
-    def flank(self) -> BatchFlank:
-        task, limit = self.task, self.task.stop_limits[0].limit
-        horizon = task.horizon * task.law.coefficient
-        return BatchFlank(task.contact, task.law, limit, horizon, task.life_tolerance)
+    def horizon(self) -> float:
+        """Cycles times coefficient."""
+        return self.task.horizon * self.task.law.coefficient
+
+    def problem(self, horizon: float) -> WearProblem[FlankContact]:
+        """Return what is worn for it and for all of equal wear: with coefficient 1 until a horizon."""
+        task = self.task
+        return WearProblem(task.contact, replace(task.law, coefficient=1.0), task.stop_limits, horizon)
 
     @property
     def kind(self) -> tuple[object, ...]:
@@ -72,49 +99,20 @@ class _FlankJob:
             contact.columns,
             task.law.unit_numbers(contact.kind),
         )
-        numbers = contact.modulus, task.stop_limits[0].limit, task.life_tolerance
+        numbers = contact.modulus, task.depth_limit, task.life_tolerance
         return (*self.kind, *numbers, *(array.tobytes() for array in arrays))
 
-    def run(self, worn: BatchResult | None) -> "_BatchRun | None":
-        """Return what came of it; None where it has no life."""
+    def run(self, worn: Worn, run_to: float) -> _BatchRun | None:
+        """Return what came of a run to a horizon; None where it has no life."""
         if worn is None:
             return None
-        task, coefficient = self.task, self.task.law.coefficient
-        horizon = task.horizon * coefficient
+        (run, change), task = worn, self.task
         # Of cases that share a run, one that ends at its own horizon was run to another's.
-        if worn.horizon > horizon and (1.0 + task.life_tolerance) * worn.time > horizon:
+        if run_to > self.horizon and (1.0 + task.life_tolerance) * float(run.cycles[-1]) > self.horizon:
             raise _AloneError
-        steady = np.array([worn.time if worn.reached else horizon]) / coefficient
-        return _BatchRun(task, worn, float(task.clock.running_cycles(steady)[0]))
-
-
-@dataclass(frozen=True, eq=False)
-class _BatchRun:
-    """A run on one grid."""
-
-    task: WearTask
-    worn: BatchResult
-    cycles: float
-
-    @property
-    def spacing(self) -> float:
-        return self.task.contact.end_spacing
-
-    @property
-    def own_error(self) -> float:
-        missed = depth_missed(self.worn.x, self.worn.y, self.worn.depth)
-        return self.worn.change * self.task.clock.amplification + missed
-
-    def change(self, other: "_BatchRun") -> float:
-        if self.worn.reached and other.worn.reached:
-            return abs(other.cycles / self.cycles - 1.0)
-        if self.worn.reached or other.worn.reached:
-            raise _AloneError
-        return abs(float(other.worn.depth.max()) / float(self.worn.depth.max()) - 1.0)
-
-
-class _AloneError(Exception):
-    """A case whose runs in batches do not tell its life."""
+        time = float(run.cycles[-1]) if run.met is not None else self.horizon
+        cycles = task.clock.running_cycles(np.array([0.0, time]) / task.law.coefficient)
+        return _BatchRun(task, replace(run, cycles=cycles), change * task.clock.amplification)
 
 
 class _CaseJob:
@@ -123,20 +121,20 @@ class _CaseJob:
     def __init__(self, case: Case) -> None:
         self._case = case
         mechanism, tolerance = case.drive.mechanism(case), case.run.life_tolerance
-        self._search: GridSearch[_BatchRun] = settle_grid(mechanism, tolerance, LEVELS)
+        self._search: GridSearch = settle_grid(mechanism, tolerance, LEVELS)
         self._begun = False
-        self.settled: SettledLife[_BatchRun] | None = None
+        self.settled: SettledLife | None = None
         self.wanted = self._wanted(next(self._search))
 
     def _wanted(self, contacts: list[FlankContact]) -> list[_FlankJob]:
         return [_FlankJob(task) for task in wear_tasks(self._case, contacts)]
 
-    def send(self, flanks: Sequence[BatchResult | None]) -> None:
+    def send(self, flanks: Sequence[tuple[Worn, float]]) -> None:
         """Go on with what came of the flanks, if that tells all of the case's own life."""
         wanted, self.wanted, first = self.wanted, [], not self._begun
         self._begun = True
         try:
-            runs = [one.run(worn) for one, worn in zip(wanted, flanks, strict=True)]
+            runs = [one.run(*worn) for one, worn in zip(wanted, flanks, strict=True)]
             if not first or runs[0] is not None:
                 self.wanted = self._wanted(self._search.send(runs))
         except StopIteration as end:
@@ -169,8 +167,8 @@ def batched_lives(cases: Iterable[Case], threads: int | None = None) -> Iterator
             yield from map(_life, chunk, jobs)
 
 
-_Batch = tuple[list[list[_FlankJob]], "Future[list[BatchResult | None]]"]
-"""Flanks of equal wear, one list a run, and what comes of the runs."""
+_Batch = tuple[list[list[_FlankJob]], list[float], "Future[list[Worn]]"]
+"""Flanks of equal wear, one list a run, the horizons of the runs, and what comes of them."""
 
 
 def _job(case: Case) -> _CaseJob | None:
@@ -198,20 +196,19 @@ def _submit(pool: ThreadPoolExecutor, jobs: list[_CaseJob | None]) -> list[_Batc
     for groups in kinds.values():
         for first in range(0, len(groups), _BATCH):
             part = groups[first : first + _BATCH]
-            flanks = [
-                replace(group[0].flank, horizon=max(wanted.flank.horizon for wanted in group))
-                for group in part
-            ]
-            batches.append((part, pool.submit(advance_batch, flanks)))
+            horizons = [max(wanted.horizon for wanted in group) for group in part]
+            problems = [group[0].problem(horizon) for group, horizon in zip(part, horizons, strict=True)]
+            tolerances = [group[0].task.life_tolerance for group in part]
+            batches.append((part, horizons, pool.submit(advance_batch, problems, tolerances)))
     return batches
 
 
 def _collect(jobs: list[_CaseJob | None], batches: list[_Batch]) -> None:
     """Wait for batches and hand the jobs what came of their flanks."""
-    found: dict[int, BatchResult | None] = {}
-    for groups, future in batches:
-        for group, worn in zip(groups, future.result(), strict=True):
-            found.update((id(wanted), worn) for wanted in group)
+    found: dict[int, tuple[Worn, float]] = {}
+    for groups, horizons, future in batches:
+        for group, worn, run_to in zip(groups, future.result(), horizons, strict=True):
+            found.update((id(wanted), (worn, run_to)) for wanted in group)
     for job in jobs:
         if job is not None and job.wanted:
             job.send([found[id(wanted)] for wanted in job.wanted])
@@ -221,25 +218,46 @@ def _life(case: Case, job: _CaseJob | None) -> CaseLife | WearsimError:
     """Return the life of a case: of its job, or alone where that does not tell all of it."""
     if job is None or job.settled is None:
         return _alone(case)
-    settled, run = job.settled, job.settled.run
-    worn, contact = run.worn, run.task.contact
+    settled, task, run = job.settled, job.settled.run.task, job.settled.run.trajectory
+    cycles, reached = float(run.cycles[-1]), run.met is not None
     warnings = [
         *case.warnings,
         *settled.warnings(case.run.life_tolerance),
-        *wide_contact(contact, worn.half_width),
+        *wide_contact(task.contact, _half_width(task, run)),
     ]
-    if worn.reached:
-        warnings += few_cycles(run.cycles)
-    life = life_of(run.cycles, case.cycles_per_hour, worn.reached)
-    warnings += low_contact_ratio_in_the_end(settled.mechanism.worn_contact_ratio(worn.x, worn.y))
-    warnings += late_relubrication(case, run.task.clock.lubricant, {"flank": life})
+    if reached:
+        warnings += few_cycles(cycles)
+    life = life_of(cycles, case.cycles_per_hour, reached)
+    warnings += low_contact_ratio_in_the_end(settled.mechanism.worn_contact_ratio(run.x[-1], run.y[-1]))
+    warnings += late_relubrication(case, task.clock.lubricant, {"flank": life})
     return CaseLife(
         case.name,
         life,
-        run.task.stop_limits[0].name if worn.reached else "horizon_hours",
+        task.stop_limits[0].name if reached else "horizon_hours",
         settled.error,
         tuple(warnings),
     )
+
+
+def _half_width(task: WearTask[FlankContact], run: Trajectory) -> float:
+    """Return the greatest half-width of the contact [mm], new or worn."""
+    contact, law = task.contact, task.law.unit_numbers(task.contact.kind)
+    work, widest = np.empty((WORK_ROWS, contact.profile.x.size)), 0.0
+    for state in np.stack([run.x, run.y, run.depth], axis=1):
+        flank_rate(
+            contact.kernel,
+            state,
+            state[DEPTH],
+            contact.constants,
+            contact.columns,
+            contact.modulus,
+            law,
+            work,
+        )
+        load, relative = work[LOAD], work[RELATIVE]
+        touching = (load > 0.0) & (relative > 0.0)
+        widest = max(widest, float(half_width(load[touching], relative[touching], contact.modulus).max()))
+    return widest
 
 
 def _alone(case: Case) -> CaseLife | WearsimError:

@@ -1,11 +1,12 @@
 """On which points a life is found: those of the case, and better ones where its error is too large."""
 
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass, replace
-from typing import Generic, Protocol, Self, TypeVar
 
 from wearsim.contact.engagement import FlankContact, Mechanism
-from wearsim.wear.accuracy import exceeds, grid_error
+from wearsim.simulation.wear_task import WearTask
+from wearsim.wear.accuracy import depth_missed, exceeds, grid_error
+from wearsim.wear.trajectory import Trajectory, difference
 
 LEVELS = 2
 """Times that a flank is refined at most."""
@@ -14,30 +15,36 @@ _REFINED = 1.75
 """On the error by the grid of a refined flank: with fine ends less of it is of first order."""
 
 
-class _GridLife(Protocol):
+@dataclass(frozen=True, eq=False)
+class FlankRun:
     """What came of a flank on one grid."""
+
+    task: WearTask[FlankContact]
+    trajectory: Trajectory  # over the cycles of the case
+    step_error: float
 
     @property
     def spacing(self) -> float:
-        """Of its points at the ends [mm]."""
+        """Spacing of its points at the ends [mm]."""
+        return self.task.contact.end_spacing
 
     @property
     def own_error(self) -> float:
         """Relative error by its steps and by what lies between its points."""
+        run = self.trajectory
+        return self.step_error + depth_missed(run.x[-1], run.y[-1], run.depth[-1])
 
-    def change(self, other: Self) -> float:
+    def change(self, other: "FlankRun") -> float:
         """Return the relative difference to the life, or to the depth at the horizon, of another."""
-
-
-AnyGridLife = TypeVar("AnyGridLife", bound=_GridLife)
+        return difference(self.trajectory, other.trajectory)
 
 
 @dataclass(frozen=True, eq=False)
-class SettledLife(Generic[AnyGridLife]):
+class SettledLife:
     """A life on the points that tell it best."""
 
     mechanism: Mechanism  # with the new flank on these points
-    run: AnyGridLife  # what came of it
+    run: FlankRun  # what came of it
     # relative error by steps and grid; 1 where no other grid has a life to compare with
     error: float
     points: int  # of the flank as the case gives it
@@ -74,11 +81,11 @@ class SettledLife(Generic[AnyGridLife]):
         return [f"{exceeds(self.error, tolerance)}{joint} {cure}"]
 
 
-GridSearch = Generator[list[FlankContact], list[AnyGridLife | None], SettledLife[AnyGridLife]]
+GridSearch = Generator[list[FlankContact], Sequence[FlankRun | None], SettledLife]
 """Yields flanks to wear, is sent what came of them, and returns the life."""
 
 
-def settle_grid(mechanism: Mechanism, tolerance: float, levels: int) -> GridSearch[AnyGridLife]:
+def settle_grid(mechanism: Mechanism, tolerance: float, levels: int) -> GridSearch:
     """Find on which points a life is within its tolerance.
 
     A generator, so that flanks may be worn one by one or in batches: it yields those to wear
@@ -107,5 +114,5 @@ def settle_grid(mechanism: Mechanism, tolerance: float, levels: int) -> GridSear
     return best
 
 
-def _error(run: AnyGridLife, others: list[AnyGridLife]) -> float:
+def _error(run: FlankRun, others: list[FlankRun]) -> float:
     return grid_error(run.spacing, ((other.spacing, run.change(other)) for other in others))

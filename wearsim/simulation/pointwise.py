@@ -1,6 +1,6 @@
 """Lives on mechanisms that load every point of a flank once a cycle: strand and table of loads."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,10 +11,9 @@ from wearsim.errors import WearsimError
 from wearsim.geometry.profile_points import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.film_ratio import film_assumptions
-from wearsim.simulation.flank_grids import LEVELS, GridSearch, SettledLife, settle_grid
+from wearsim.simulation.flank_grids import LEVELS, FlankRun, GridSearch, SettledLife, settle_grid
 from wearsim.simulation.lubricant import late_relubrication
-from wearsim.simulation.validity import few_cycles, validity
+from wearsim.simulation.validity import few_cycles, film_assumptions, validity
 from wearsim.simulation.wear_task import (
     WearTask,
     clock_assumptions,
@@ -22,8 +21,8 @@ from wearsim.simulation.wear_task import (
     new_flank_pressure,
     wear_task,
 )
-from wearsim.wear.accuracy import GridStudy, depth_missed, grid_study
-from wearsim.wear.per_cycle import check_length, run_per_cycle
+from wearsim.wear.accuracy import GridStudy, grid_study
+from wearsim.wear.loop import check_length, run_per_cycle
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
 
@@ -92,40 +91,19 @@ def points_grid_study(case: Case, life_tolerance: float) -> GridStudy:
     return grid_study(case.drive.mechanism(case).contact, lambda grid: wear_task(tight, grid).run()[0])
 
 
-@dataclass(frozen=True, eq=False)
-class _SteppedRun:
-    """A run on one grid."""
-
-    task: WearTask
-    trajectory: Trajectory
-    step_error: float
-
-    @property
-    def spacing(self) -> float:
-        return self.task.contact.end_spacing
-
-    @property
-    def own_error(self) -> float:
-        run = self.trajectory
-        return self.step_error + depth_missed(run.x[-1], run.y[-1], run.depth[-1])
-
-    def change(self, other: "_SteppedRun") -> float:
-        return difference(self.trajectory, other.trajectory)
-
-
-def _settled_life(case: Case, mechanism: Mechanism, warnings: list[str]) -> SettledLife[_SteppedRun]:
+def _settled_life(case: Case, mechanism: Mechanism, warnings: list[str]) -> SettledLife:
     """Find the life on points on which it is within its tolerance, or say that it is not."""
     advances = case.run.method == "advance"
     tolerance, levels = case.run.life_tolerance, LEVELS if advances else 0
-    search: GridSearch[_SteppedRun] = settle_grid(mechanism, tolerance, levels)
+    search: GridSearch = settle_grid(mechanism, tolerance, levels)
     contacts = next(search)
-    first = _SteppedRun(wear_task(case, contacts[0]), *_first_run(case, contacts[0], warnings))
-    found: list[_SteppedRun | None] = [first, *(_run_on(case, other) for other in contacts[1:])]
+    first = FlankRun(wear_task(case, contacts[0]), *_first_run(case, contacts[0], warnings))
+    found: list[FlankRun | None] = [first, *(_run_on(case, other) for other in contacts[1:])]
     while True:
         try:
             contacts = search.send(found)
         except StopIteration as end:
-            settled: SettledLife[_SteppedRun] = end.value
+            settled: SettledLife = end.value
             break
         found = [_run_on(case, contact) for contact in contacts]
     warnings += settled.warnings(tolerance)
@@ -148,13 +126,13 @@ def _first_run(case: Case, contact: FlankContact, warnings: list[str]) -> tuple[
         )
     else:
         expected = task.clock.steady_cycles(float(check.cycles[-1]))
-        check_length(contact, task.law, task.stop_limits, expected, cycles)
-    run = task.run_in(run_per_cycle(contact, task.law, task.stop_limits, task.horizon, cycles))
+        check_length(task, expected, cycles)
+    run = task.run_in(run_per_cycle(task, cycles))
     check_fold(contact, run)
     return run, 1.0 if check is None else change + difference(run, check)
 
 
-def _run_on(case: Case, contact: FlankContact) -> _SteppedRun | None:
+def _run_on(case: Case, contact: FlankContact) -> FlankRun | None:
     """Return the run on other points; None where there is none."""
     task = wear_task(case, contact)
     try:
@@ -162,7 +140,7 @@ def _run_on(case: Case, contact: FlankContact) -> _SteppedRun | None:
         check_fold(contact, run)
     except WearsimError:
         return None
-    return _SteppedRun(task, run, error)
+    return FlankRun(task, run, error)
 
 
 def _tables(case: Case, mechanism: Mechanism, run: Trajectory) -> tuple[dict[str, Vector], dict[str, Vector]]:
@@ -205,7 +183,7 @@ def _tables(case: Case, mechanism: Mechanism, run: Trajectory) -> tuple[dict[str
 
 
 def _band(
-    case: Case, task: WearTask, run: Trajectory, warnings: list[str]
+    case: Case, task: WearTask[FlankContact], run: Trajectory, warnings: list[str]
 ) -> tuple[Life | LowerBound, Life | LowerBound]:
     """Lives at the high and at the low coefficient: by scaling where the life is known."""
     life = _life(case, run)

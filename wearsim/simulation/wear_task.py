@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,7 +17,6 @@ from wearsim.lubrication.clock import lubricant_clock
 from wearsim.result import LimitState
 from wearsim.simulation.lubricant import sliding_per_cycle
 from wearsim.wear.advance import run_advance
-from wearsim.wear.cycles_power import CyclesPower
 from wearsim.wear.law import (
     LAWS,
     RelativeLoad,
@@ -26,58 +26,64 @@ from wearsim.wear.law import (
     with_pressure_speed_limit,
 )
 from wearsim.wear.mate_clock import LubricatedClock
-from wearsim.wear.running_in import NO_RUNNING_IN, RunningIn
+from wearsim.wear.problem import AnyContact, WearProblem
+from wearsim.wear.running_in import NO_RUNNING_IN, CyclesPower, RunningIn, WearClock
 from wearsim.wear.severe_wear import on_level_branch, t_gamma_energy
 from wearsim.wear.trajectory import Trajectory
-from wearsim.wear.wear_clock import WearClock
+
+AnyRun = TypeVar("AnyRun", bound=Trajectory)
 
 
-@dataclass(frozen=True, eq=False)
-class WearTask:
-    """A flank to wear."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class WearTask(WearProblem[AnyContact]):
+    """What a case asks of the wear engine: a problem, over the cycles that the case runs."""
 
-    contact: FlankContact  # the flank and its contact
-    law: WearLaw  # the wear law, for the mean over the duty
-    stop_limits: tuple[StopLimit, ...]  # limits, the depth stop limit first
     clock: LubricatedClock  # between the cycles run and those of constant coefficient
-    horizon: float  # cycles of constant coefficient at which the run ends in any case
     life_tolerance: float  # relative tolerance of the life in such cycles
 
     def run(self) -> tuple[Trajectory, float]:
-        """Wear the flank with step control."""
-        run, change = run_advance(self.contact, self.law, self.stop_limits, self.horizon, self.life_tolerance)
+        """Wear the bodies with step control."""
+        run, change = run_advance(self, self.life_tolerance)
         return self.run_in(run), change * self.clock.amplification
 
-    def run_in(self, run: Trajectory) -> Trajectory:
+    def run_in(self, run: AnyRun) -> AnyRun:
         """Return a run over cycles of constant coefficient over the cycles run."""
         return replace(run, cycles=self.clock.running_cycles(run.cycles))
 
 
-def wear_task(case: Case, contact: FlankContact) -> WearTask:
+def wear_task(case: Case, contact: FlankContact) -> WearTask[FlankContact]:
     """Return what a case asks of the wear engine on one flank."""
     [task] = wear_tasks(case, [contact])
     return task
 
 
-def wear_tasks(case: Case, contacts: Iterable[FlankContact]) -> list[WearTask]:
+def wear_tasks(case: Case, contacts: Iterable[FlankContact]) -> list[WearTask[FlankContact]]:
     """Return what a case asks of the wear engine on each of some flanks."""
     law = _law(case)
     return [_task(case, law, contact) for contact in contacts]
 
 
-def _task(case: Case, law: WearLaw, contact: FlankContact) -> WearTask:
+def _task(case: Case, law: WearLaw, contact: FlankContact) -> WearTask[FlankContact]:
     if case.wear.law == "t_gamma":
         _check_t_gamma(case, contact)
     changes = case.wear.running_in_factor != 1.0 or case.lubrication is not None
     sliding = sliding_per_cycle(case, contact) if changes else 0.0
     clock = contact_clock(case, sliding, sliding)
+    law = replace(law, running_in=clock.part)
+    return task_of(case, contact, law, case.drive.stop_limits(case, contact), clock)
+
+
+def task_of(
+    case: Case, contact: AnyContact, law: WearLaw, stop_limits: tuple[StopLimit, ...], clock: LubricatedClock
+) -> WearTask[AnyContact]:
+    """Return the task of a case with its horizon and its tolerance, in cycles of constant coefficient."""
     return WearTask(
         contact,
-        replace(law, running_in=clock.part),
-        case.drive.stop_limits(case, contact),
-        clock,
+        law,
+        stop_limits,
         clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour),
-        case.run.life_tolerance / clock.amplification,
+        clock=clock,
+        life_tolerance=case.run.life_tolerance / clock.amplification,
     )
 
 

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -18,17 +17,24 @@ from wearsim.result import Life, LimitState, LowerBound, WearResult, environment
 from wearsim.result.folder import with_files
 from wearsim.result.second_opinions import SecondOpinions, second_opinions
 from wearsim.simulation.lubricant import late_relubrication, with_knees
-from wearsim.simulation.wear_task import clock_assumptions, contact_clock, limit_states, wear_law
+from wearsim.simulation.wear_task import (
+    WearTask,
+    clock_assumptions,
+    contact_clock,
+    limit_states,
+    task_of,
+    wear_law,
+)
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
+from wearsim.wear.loop import check_length
 from wearsim.wear.mate_clock import LubricatedClock, MateClock
-from wearsim.wear.per_cycle import check_length
-from wearsim.wear.resting_bodies import Rows, StartState, highest_load
-from wearsim.wear.running_in import NO_RUNNING_IN
+from wearsim.wear.problem import Rows, StartState
+from wearsim.wear.resting_bodies import highest_load
+from wearsim.wear.running_in import NO_RUNNING_IN, WearClock
 from wearsim.wear.settled_run import advance_resting
-from wearsim.wear.trajectory import Trajectory, difference
-from wearsim.wear.wear_clock import WearClock
+from wearsim.wear.trajectory import difference
 
 _FLANKS = 40
 """Worn outlines kept in flank.csv, about."""
@@ -50,14 +56,15 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     """
     drive = wrap_of(case)
     contact = drive.contact(case)
-    law, stop_limits, horizon, clock = wrap_problem(case, contact)
+    task = wrap_task(case, contact)
+    law, clock = task.law, task.clock
     ratings, practice = drive.ratings(case), chain_practice(case)
     of_practice = practice.warnings if practice else ()
     warnings = [*of_practice, *case.warnings, *rating_warnings(ratings)]
-    run, error = _run(case, contact, law, stop_limits, horizon, clock, warnings, progress)
-    warnings += _gave_up(run, horizon)
+    run, error = _run(case, task, warnings, progress)
+    warnings += _gave_up(run, task.horizon)
     constant = run.cycles
-    run = replace(run, cycles=clock.running_cycles(constant))
+    run = task.run_in(run)
     chain = _chain_life(case, contact)
     sprocket = life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None)
     life, stop, stop_value = _first(case, drive, run, chain, sprocket)
@@ -99,7 +106,7 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         numerical_error=error,
         life_tolerance=case.run.life_tolerance,
         parts=parts,
-        limits=_limits(contact, drive, stop_limits, run, life),
+        limits=_limits(contact, drive, task.stop_limits, run, life),
         bands=bands,
         ratings=ratings,
         practice=practice,
@@ -119,16 +126,12 @@ def chain_practice(case: Case) -> SecondOpinions | None:
     return second_opinions(*duty) if duty else None
 
 
-def wrap_problem(
-    case: Case, contact: WrapContact
-) -> tuple[WearLaw, tuple[StopLimit, ...], float, LubricatedClock]:
+def wrap_task(case: Case, contact: WrapContact) -> WearTask[RestingContact]:
     """Return what a wrap asks of the wear engine."""
     clock = contact_clock(case, contact.sliding_per_cycle, contact.joint_sliding_per_cycle)
     mates = MateClock(clock, joint_clock(case, contact).part)
     law = replace(wear_law(case.wear, case.wear.coefficient), running_in=clock.part, mates=mates)
-    stop_limits = wrap_of(case).gap_limits(case, contact.mechanism.path)
-    horizon = clock.steady_cycles(case.run.horizon_hours * case.cycles_per_hour)
-    return law, stop_limits, horizon, clock
+    return task_of(case, contact, law, wrap_of(case).gap_limits(case, contact.mechanism.path), clock)
 
 
 def joint_clock(case: Case, contact: WrapContact) -> LubricatedClock:
@@ -144,48 +147,27 @@ def chain_clock(case: Case) -> LubricatedClock:
 
 def wrap_grid_study(case: Case, life_tolerance: float) -> GridStudy:
     """Run the sprocket of a wrapped case on three grids."""
-    contact = wrap_of(case).contact(case)
-    run_on = partial(_on_grid, *wrap_problem(case, contact), life_tolerance)
-    return grid_study(contact, run_on)
-
-
-def _on_grid(
-    law: WearLaw,
-    stop_limits: tuple[StopLimit, ...],
-    horizon: float,
-    clock: WearClock,
-    life_tolerance: float,
-    grid: RestingContact,
-) -> Trajectory:
-    run, _ = advance_resting(grid, law, stop_limits, horizon, life_tolerance)
-    return replace(run, cycles=clock.running_cycles(run.cycles))
+    task = wrap_task(case, wrap_of(case).contact(case))
+    return grid_study(
+        task.contact, lambda grid: task.run_in(advance_resting(task.on(grid), life_tolerance)[0])
+    )
 
 
 def _run(
-    case: Case,
-    contact: WrapContact,
-    law: WearLaw,
-    stop_limits: tuple[StopLimit, ...],
-    horizon: float,
-    clock: WearClock,
-    warnings: list[str],
-    progress: Callable[[float], None],
+    case: Case, task: WearTask[RestingContact], warnings: list[str], progress: Callable[[float], None]
 ) -> tuple[RestingTrajectory, float]:
     """Run the case; the error is that of the steps and of the grid."""
-    amplification, tolerance = clock.amplification, case.run.life_tolerance
-    by_cycles = case.run.method == "per_cycle"
+    by_cycles, tolerance = case.run.method == "per_cycle", case.run.life_tolerance
     first = part_of(progress, 0.0, _ADVANCED) if by_cycles else progress
-    run, error = advance_resting(
-        contact, law, stop_limits, horizon, tolerance / amplification, progress=first
-    )
+    run, error = advance_resting(task, task.life_tolerance, first)
     if by_cycles:
         check, end, cycles = run, float(run.cycles[-1]), case.run.cycles_per_update
-        check_length(contact, law, stop_limits, end, cycles)
-        until = horizon if check.met else end
+        check_length(task, end, cycles)
+        until = task.horizon if check.met else end
         watch = reported_progress(part_of(progress, _ADVANCED, 1.0))
-        run = run_resting(contact, law, stop_limits, until, 0, float(cycles), watch)
+        run = run_resting(replace(task, horizon=until), 0, float(cycles), watch)
         error += difference(run, check)
-    error *= amplification
+    error *= task.clock.amplification
     if error > tolerance:
         warnings.append(
             f"{exceeds(error, tolerance)}, even with steps halved and phases doubled: use more nodes or "
@@ -234,8 +216,7 @@ def part_band(case: Case, part: str, life: Life | LowerBound) -> tuple[Life | Lo
     clock: WearClock = NO_RUNNING_IN
     if not (case.wear.is_steady and (case.lubrication is None or case.lubrication.steady)):
         contact = wrap_of(case).contact(case)
-        *_, teeth = wrap_problem(case, contact)
-        clock = _clock_of(case, part, contact, teeth)
+        clock = _clock_of(case, part, contact, wrap_task(case, contact).clock)
     return _band(case, part, life, clock)
 
 

@@ -3,16 +3,12 @@
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 
-from wearsim.contact.engagement import FlankContact
-from wearsim.contact.resting_engagement import RestingContact
 from wearsim.geometry.profile_points import Vector
-from wearsim.wear.trajectory import Trajectory, depth_at
-
-AnyContact = TypeVar("AnyContact", FlankContact, RestingContact)
+from wearsim.wear.problem import AnyContact
+from wearsim.wear.trajectory import Trajectory, compared
 
 SAFETY = 1.1
 """On the error of a grid: with it the stated error holds for 98 of 100 random drives."""
@@ -123,10 +119,7 @@ def grid_study(contact: AnyContact, run_on: Callable[[AnyContact], Trajectory]) 
     """Run a case on all, on half and on a quarter of its points."""
     half = contact.coarsened()
     grids = [contact, half, half.coarsened()]
-    runs = [run_on(grid) for grid in grids]
-    reached = all(run.met is not None for run in runs)
-    end = min(float(run.cycles[-1]) for run in runs)
-    values = [float(run.cycles[-1]) if reached else depth_at(run, end) for run in runs]
+    reached, values = compared(*map(run_on, grids))
     near, far = values[1] - values[0], values[2] - values[1]
     order = math.log2(far / near) if near * far > 0.0 else math.nan
     points = tuple(grid.profile.x.size for grid in grids)

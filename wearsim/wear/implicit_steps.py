@@ -15,17 +15,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wearsim.contact.resting_engagement import RestingContact
-from wearsim.contact.stop_limits import StopLimit, first_limit_met, jump_limit
+from wearsim.contact.stop_limits import StopLimit, jump_limit
 from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile_points import Vector
-from wearsim.wear.law import WearLaw
-from wearsim.wear.resting_bodies import StartState, WornBodies, WornState
+from wearsim.wear.problem import Rows, WearProblem, first_place
+from wearsim.wear.resting_bodies import WornBodies, WornState
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory
-
-Rows = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -163,18 +160,6 @@ class _StepSize:
         return max(cycles, 1.0 / self.refined)
 
 
-def _margins(stop_limits: tuple[StopLimit, ...], bodies: WornBodies) -> float:
-    return min(
-        stop_limit.margin(bodies.x[body], bodies.y[body], bodies.depth[body])
-        for stop_limit in stop_limits
-        for body in range(bodies.contact.bodies)
-    )
-
-
-def _done(stop_limits: tuple[StopLimit, ...], bodies: WornBodies, horizon: float) -> float:
-    return min(1.0, max(float(bodies.depth.max()) / stop_limits[0].limit, bodies.cycles / horizon))
-
-
 def part_of(progress: Callable[[float], None], begin: float, end: float) -> Callable[[float], None]:
     """Return what is told the progress of a run that is only a part of the whole.
 
@@ -198,41 +183,23 @@ def reported_progress(progress: Callable[[float], None]) -> Watch:
     return _goes_on
 
 
-def _met(stop_limits: tuple[StopLimit, ...], bodies: WornBodies) -> StopLimit | None:
-    found = [
-        first_limit_met(stop_limits, bodies.x[body], bodies.y[body], bodies.depth[body])
-        for body in range(bodies.contact.bodies)
-    ]
-    return next((stop_limit for stop_limit in found if stop_limit is not None), None)
-
-
 def run_resting(
-    contact: RestingContact,
-    law: WearLaw,
-    stop_limits: tuple[StopLimit, ...],
-    horizon: float,
+    problem: WearProblem[RestingContact],
     level: int,
     cycles_per_step: float = 0.0,
     watch: Watch = lambda part: True,
-    start: StartState | None = None,
 ) -> RestingTrajectory:
     """Wear outlines and mate event by event until a stop limit is met or the horizon is reached.
 
     At its elongation limit the mate is replaced by a new one. A run by depth that takes too
     many steps, those of about 60 mates, ends before its horizon.
     """
-    pace = _StepSize(BY_EVENTS, stop_limits[0].limit, level, cycles_per_step)
-    return _run(WornBodies(contact, law, start), pace, stop_limits, horizon, watch)
+    pace = _StepSize(BY_EVENTS, problem.depth_limit, level, cycles_per_step)
+    return _run(problem, WornBodies(problem), pace, watch)
 
 
 def run_seated(
-    contact: RestingContact,
-    law: WearLaw,
-    stop_limits: tuple[StopLimit, ...],
-    horizon: float,
-    level: int,
-    watch: Watch = lambda part: True,
-    start: StartState | None = None,
+    problem: WearProblem[RestingContact], level: int, watch: Watch = lambda part: True
 ) -> RestingTrajectory:
     """Wear outlines and mate by implicit stages until a stop limit is met or the horizon is reached.
 
@@ -242,22 +209,16 @@ def run_seated(
     # A run event by event does without.
     from wearsim.wear.seated_bodies import SeatedBodies
 
-    pace = _StepSize(BY_STAGES, stop_limits[0].limit, level, 0.0)
-    return _run(SeatedBodies(contact, law, start), pace, stop_limits, horizon, watch)
+    return _run(problem, SeatedBodies(problem), _StepSize(BY_STAGES, problem.depth_limit, level, 0.0), watch)
 
 
 def _run(
-    bodies: WornBodies, pace: _StepSize, stop_limits: tuple[StopLimit, ...], horizon: float, watch: Watch
+    problem: WearProblem[RestingContact], bodies: WornBodies, pace: _StepSize, watch: Watch
 ) -> RestingTrajectory:
-    contact, record = bodies.contact, _Snapshots()
+    contact, horizon, record = problem.contact, problem.horizon, _Snapshots()
     record.add(bodies)
     met, end = None, horizon * (1.0 - 1e-12)
-    while (
-        met is None
-        and bodies.cycles < end
-        and not pace.is_spent(bodies)
-        and watch(_done(stop_limits, bodies, horizon))
-    ):
+    while met is None and bodies.cycles < end and not pace.is_spent(bodies) and watch(_done(problem, bodies)):
         before = bodies.state()
         cycles = min(pace.cycles(bodies), horizon - bodies.cycles)
         try:
@@ -275,7 +236,7 @@ def _run(
             bodies.go_back(before)
             record.add(bodies, last=True)
             return replace(record.trajectory(bodies, None), lost=str(error))
-        met = _limit_met(stop_limits, bodies, before)
+        met = _limit_met(problem, bodies, before)
         record.add_between(bodies, before)
         if met is None and bodies.mate_is_worn:
             record.end_mate(bodies)
@@ -287,25 +248,34 @@ def _run(
     return record.trajectory(bodies, met)
 
 
-def _limit_met(stop_limits: tuple[StopLimit, ...], bodies: WornBodies, before: WornState) -> StopLimit | None:
+def _done(problem: WearProblem[RestingContact], bodies: WornBodies) -> float:
+    return min(1.0, max(float(bodies.depth.max()) / problem.depth_limit, bodies.cycles / problem.horizon))
+
+
+def _met(problem: WearProblem[RestingContact], bodies: WornBodies) -> StopLimit | None:
+    found = (problem.met(*body) for body in zip(bodies.x, bodies.y, bodies.depth, strict=True))
+    return next((stop_limit for stop_limit in found if stop_limit is not None), None)
+
+
+def _limit_met(
+    problem: WearProblem[RestingContact], bodies: WornBodies, before: WornState
+) -> StopLimit | None:
     """Return the limit that the last step has met, if any, and go back to where it was met."""
-    contact, met = bodies.contact, _met(stop_limits, bodies)
+    contact, met = problem.contact, _met(problem, bodies)
     if met is not None:
-        _cut(bodies, before, lambda: _margins(stop_limits, bodies) > 0.0)
+        _cut(bodies, before, lambda: _met(problem, bodies) is not None)
     if not contact.holds(bodies.x, bodies.y, bodies.wear):
         met = jump_limit(contact.slack_limit)
-        _cut(bodies, before, lambda: contact.holds(bodies.x, bodies.y, bodies.wear))
+        _cut(bodies, before, lambda: not contact.holds(bodies.x, bodies.y, bodies.wear))
     return met
 
 
-def _cut(bodies: WornBodies, before: WornState, allowed: Callable[[], bool]) -> None:
-    """Go back on the last step to the place up to which it was allowed."""
+def _cut(bodies: WornBodies, before: WornState, fails: Callable[[], bool]) -> None:
+    """Go back on the last step to the first place at which something fails."""
     after = bodies.state()
-    low, high = 0.0, 1.0
-    while True:
-        middle = 0.5 * (low + high)
-        if not low < middle < high:
-            break
-        bodies.go_back(before.on_the_way_to(after, middle))
-        low, high = (middle, high) if allowed() else (low, middle)
-    bodies.go_back(before.on_the_way_to(after, high))
+
+    def fails_after(part: float) -> bool:
+        bodies.go_back(before.on_the_way_to(after, part))
+        return fails()
+
+    bodies.go_back(before.on_the_way_to(after, first_place(fails_after, 0.0, 1.0)))

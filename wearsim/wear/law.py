@@ -14,9 +14,8 @@ from wearsim.contact.engagement import ContactKind
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.severity import BY_PRESSURE_SPEED, BY_T_GAMMA
 from wearsim.wear.mate_clock import STEADY, MateClock
-from wearsim.wear.running_in import NO_RUNNING_IN
+from wearsim.wear.running_in import NO_RUNNING_IN, WearClock
 from wearsim.wear.severe_wear import NO_SEVERITY, Severity, t_gamma_coefficient
-from wearsim.wear.wear_clock import WearClock
 
 
 def mean_pressure_factor(exponent: float) -> float:
@@ -79,19 +78,19 @@ class WearLaw:
             hardened layer and the factor below it, kind, limit and factor of the severity. In a
             travelling contact c_m 2a = c_m 4 q/(pi sigma_H) turns one power of sigma_H into the load.
         """
-        m, n = self.pressure_exponent, self.speed_exponent
-        if kind is ContactKind.LOCAL:
-            return np.array([self.coefficient, m, 0.0, n, *self._changes])
-        factor = self.coefficient * mean_pressure_factor(m) * 4.0 / math.pi
-        return np.array([factor, m - 1.0, 1.0, n, *self._changes])
-
-    @property
-    def _changes(self) -> tuple[float, ...]:
-        return self.case_depth, self.core_factor, *self.severity.numbers
+        return self._numbers(kind, self.coefficient)
 
     def unit_numbers(self, kind: ContactKind) -> Vector:
         """Return the law as the kernel takes it, with the coefficient 1."""
-        return replace(self, coefficient=1.0).numbers(kind)
+        return self._numbers(kind, 1.0)
+
+    def _numbers(self, kind: ContactKind, coefficient: float) -> Vector:
+        m, n = self.pressure_exponent, self.speed_exponent
+        changes = self.case_depth, self.core_factor, *self.severity.numbers
+        if kind is ContactKind.LOCAL:
+            return np.array([coefficient, m, 0.0, n, *changes])
+        factor = coefficient * mean_pressure_factor(m) * 4.0 / math.pi
+        return np.array([factor, m - 1.0, 1.0, n, *changes])
 
     def diffusion(self, kind: ContactKind, slip_curvature_exponent: float) -> float:
         """Return e = d(ln depth)/d(ln relative curvature), which decides stability.

@@ -7,8 +7,7 @@ import numpy as np
 
 from wearsim.geometry.profile_points import Vector
 from wearsim.lubrication.clock import FRESH, LubricantClock
-from wearsim.wear.running_in import NO_RUNNING_IN
-from wearsim.wear.wear_clock import WearClock
+from wearsim.wear.running_in import NO_RUNNING_IN, WearClock
 
 
 @dataclass(frozen=True, eq=False)

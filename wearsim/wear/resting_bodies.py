@@ -4,7 +4,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wearsim.contact.resting_engagement import (
     FORCE_TOLERANCE,
@@ -37,21 +36,11 @@ from wearsim.kernels.wrap_wear import (
     wear_events,
 )
 from wearsim.wear.law import WearLaw
-
-Rows = NDArray[np.float64]
+from wearsim.wear.problem import Rows, StartState, WearProblem
 
 _LEAST = 1e-12
 """Part of the cycles of a run that a step takes at least: a new mate whose coefficient falls fast is longer
 by much after cycles that are too few to be told apart."""
-
-
-@dataclass(frozen=True, eq=False)
-class StartState:
-    """Worn outlines and a used mate that a run may begin with."""
-
-    depth: Rows  # depth of every body along the normals of the new outline [mm], shape (bodies, points)
-    wear: MateWear  # what the mate has lost
-    mate: int  # its number from 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,15 +81,12 @@ class WornBodies:
 
     Parameters
     ----------
-    contact : RestingContact
-        The outlines and their contacts.
-    law : WearLaw
-        The wear law.
-    start : StartState or None
-        What has worn off already.
+    problem : WearProblem
+        The outlines, their contacts and the wear law.
     """
 
-    def __init__(self, contact: RestingContact, law: WearLaw, start: StartState | None) -> None:
+    def __init__(self, problem: WearProblem[RestingContact]) -> None:
+        contact, law = problem.contact, problem.law
         self.contact = contact
         profile, bodies = contact.profile, contact.bodies
         points = profile.x.size
@@ -132,8 +118,8 @@ class WornBodies:
         self.running_in, self.mates = law.running_in, law.mates
         self.mate_in_use = self.mates.put_on(0.0)
         self.updates, self.removed, self.speed = 0, 0.0, 0.0
-        if start is not None:
-            self._begin(profile, start)
+        if problem.start is not None:
+            self._begin(profile, problem.start)
 
     def _begin(self, profile: Profile, start: StartState) -> None:
         self.depth = start.depth.copy()
@@ -248,7 +234,7 @@ def highest_load(
     contact: RestingContact, law: WearLaw, start: StartState | None, load_factor: float = 1.0
 ) -> tuple[float, float]:
     """Return the highest pressure and sliding speed of all events of a cycle."""
-    bodies = WornBodies(contact, law, start)
+    bodies = WornBodies(WearProblem(contact, law, (), 0.0, start))
     table = contact.events(bodies.x, bodies.y, bodies.wear, bodies.memory)
     table[EVENT_LOAD] *= load_factor
     bodies.press(table, 0.0)

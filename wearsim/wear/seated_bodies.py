@@ -10,15 +10,12 @@ Equation physics.md (W16).
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wearsim.contact.resting_engagement import MateWear, RestingContact
 from wearsim.errors import ContactError, ConvergenceError, JumpError
 from wearsim.kernels.wrap_wear import AREA, HARD_AREA, SPACING, UNWORN_CURVATURE, recede
-from wearsim.wear.law import WearLaw
-from wearsim.wear.resting_bodies import StartState, WornBodies
-
-Rows = NDArray[np.float64]
+from wearsim.wear.problem import Rows, WearProblem
+from wearsim.wear.resting_bodies import WornBodies
 
 _GAMMA = 1.0 - math.sqrt(0.5)
 
@@ -38,16 +35,13 @@ class SeatedBodies(WornBodies):
 
     Parameters
     ----------
-    contact : RestingContact
-        The outlines and their contacts.
-    law : WearLaw
-        The wear law.
-    start : StartState or None
-        What has worn off already.
+    problem : WearProblem
+        The outlines, their contacts and the wear law.
     """
 
-    def __init__(self, contact: RestingContact, law: WearLaw, start: StartState | None) -> None:
-        super().__init__(contact, law, start)
+    def __init__(self, problem: WearProblem[RestingContact]) -> None:
+        super().__init__(problem)
+        contact, law = problem.contact, problem.law
         self.law = law
         numbers = law.pressure_exponent, law.speed_exponent, law.case_depth, law.core_factor
         self.seating = contact.seating(np.array([law.coefficient, *numbers]), self.unworn)

@@ -9,10 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from wearsim.contact.resting_engagement import RestingContact
-from wearsim.contact.stop_limits import StopLimit
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, run_seated
-from wearsim.wear.law import WearLaw
-from wearsim.wear.resting_bodies import StartState
+from wearsim.wear.problem import WearProblem
 from wearsim.wear.trajectory import difference
 
 _LEVELS, _REFINED_LEVELS = (1, 2, 3), (1, 2)
@@ -27,14 +25,10 @@ error holds for 98 of 100 random drives."""
 
 
 def run_together(
-    contacts: Sequence[tuple[RestingContact, int]],
-    law: WearLaw,
-    stop_limits: tuple[StopLimit, ...],
-    horizon: float,
-    start: StartState | None = None,
+    problems: Sequence[tuple[WearProblem[RestingContact], int]],
     progress: Callable[[float], None] = lambda part: None,
 ) -> list[RestingTrajectory]:
-    """Run several contacts side by side, each with its own size of steps."""
+    """Run several problems side by side, each with its own size of steps."""
     stop = threading.Event()
 
     def _first(part: float) -> bool:
@@ -44,11 +38,11 @@ def run_together(
     def _others(part: float) -> bool:
         return not stop.is_set()
 
-    watches = [_first, *[_others] * (len(contacts) - 1)]
+    watches = [_first, *[_others] * (len(problems) - 1)]
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         runs = [
-            pool.submit(run_seated, contact, law, stop_limits, horizon, level, watch, start)
-            for (contact, level), watch in zip(contacts, watches, strict=True)
+            pool.submit(run_seated, problem, level, watch)
+            for (problem, level), watch in zip(problems, watches, strict=True)
         ]
         try:
             return [run.result() for run in runs]
@@ -69,12 +63,8 @@ def spared(run: RestingTrajectory, depth_limit: float, error: float) -> float:
 
 
 def advance_resting(
-    contact: RestingContact,
-    law: WearLaw,
-    stop_limits: tuple[StopLimit, ...],
-    horizon: float,
+    problem: WearProblem[RestingContact],
     life_tolerance: float,
-    start: StartState | None = None,
     progress: Callable[[float], None] = lambda part: None,
 ) -> tuple[RestingTrajectory, float]:
     """Wear outlines and mate until the life is within its tolerance as far as a coarser run tells.
@@ -89,19 +79,11 @@ def advance_resting(
 
     Parameters
     ----------
-    contact : RestingContact
-        The outlines and their contacts.
-    law : WearLaw
-        The wear law.
-    stop_limits : tuple of StopLimit
-        What ends the run, the limit on the depth first.
-    horizon : float
-        Cycles of constant coefficient after which the run ends in any case.
+    problem : WearProblem
+        What wears and until when; where something has worn off already, on the points of the contact, these
+        are kept.
     life_tolerance : float
         Relative error of the life that is asked for.
-    start : StartState, optional
-        What has worn off already; nothing by default. It stands on the points of the contact, which are
-        kept then.
     progress : callable, optional
         Told how much is done, from 0 to 1: it only rises, by a leap where no finer run follows.
 
@@ -119,16 +101,16 @@ def advance_resting(
     ConvergenceError
         No equilibrium of the mates is found.
     """
-    tried = itertools.count()
-    finer = contact.refined() if start is None else None
+    tried, contact, used = itertools.count(), problem.contact, problem.start is not None
+    finer = None if used else contact.refined()
 
     def run_at(contact: RestingContact, level: int) -> tuple[RestingTrajectory, float]:
-        pair = [(contact, level), (contact.coarsened() if start is None else contact, level - 1)]
+        coarse = contact if used else contact.coarsened()
         order = next(tried)
         report = part_of(progress, 1.0 - _KEPT**order, 1.0 - _KEPT ** (order + 1))
-        run, coarse = run_together(pair, law, stop_limits, horizon, start, report)
-        error = _SAFETY * difference(run, coarse) + _AT_LEAST / 2.0**level
-        return run, spared(run, stop_limits[0].limit, error)
+        run, other = run_together([(problem.on(contact), level), (problem.on(coarse), level - 1)], report)
+        error = _SAFETY * difference(run, other) + _AT_LEAST / 2.0**level
+        return run, spared(run, problem.depth_limit, error)
 
     run, error = run_at(contact, 0)
     for candidate, levels in ((contact, _LEVELS), (finer, _REFINED_LEVELS)):

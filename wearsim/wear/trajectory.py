@@ -1,9 +1,11 @@
 """A flank as it wears: what both ways of running hand back."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from wearsim.contact.engagement import FlankContact
@@ -29,12 +31,16 @@ class Trajectory:
     updates: int  # evaluations of the wear rate
 
 
+def compared(*runs: Trajectory) -> tuple[bool, list[float]]:
+    """Return whether all runs met a limit, and their lives; else their depths where the shortest ends."""
+    ends = [float(run.cycles[-1]) for run in runs]
+    reached = all(run.met is not None for run in runs)
+    return reached, ends if reached else [depth_at(run, min(ends)) for run in runs]
+
+
 def difference(run: Trajectory, other: Trajectory) -> float:
     """Return the relative difference of two runs of one case."""
-    if run.met is not None and other.met is not None:
-        return abs(float(other.cycles[-1] / run.cycles[-1]) - 1.0)
-    end = min(float(run.cycles[-1]), float(other.cycles[-1]))
-    worn, others = depth_at(run, end), depth_at(other, end)
+    _, (worn, others) = compared(run, other)
     if not worn > 0.0:  # a short run on a coarse grid wears nothing off
         return 0.0 if others == worn else math.inf
     return abs(others / worn - 1.0)
@@ -105,6 +111,15 @@ def check_fold(contact: FlankContact, run: Trajectory) -> None:
                 f"wear at cycle {cycles:.6g}, {contact.arc_length[flank.crossing]:.4g} mm from the root: "
                 "the worn flank must not cross itself, but does: stop at a smaller critical_depth_mm"
             )
+
+
+def folds(runs: Sequence[Trajectory]) -> list[bool]:
+    """Return of each run whether the flank in the end crosses itself or is turned over."""
+    if not runs:
+        return []
+    ends = shapely.linestrings([np.stack([run.x[-1], run.y[-1]], axis=1) for run in runs])
+    turned = [bool(overturned(run.x, run.y).any()) for run in runs]
+    return [over or not simple for over, simple in zip(turned, shapely.is_simple(ends), strict=True)]
 
 
 def overturned(x: Vector, y: Vector) -> NDArray[np.bool_]:

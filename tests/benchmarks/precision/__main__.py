@@ -19,14 +19,15 @@ from problems import (
     by_lsoda,
     by_rk45,
     by_updates,
+    depth_limit,
     every_cycle,
     strand,
 )
 from report import report
 from wrap import wrap_levels
 
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.wear.advance import run_advance
+from wearsim.wear.problem import WearProblem
 
 FOLDER = Path(__file__).parents[3] / "reports" / "reference"
 NODES = (200, 500, 1000, 2000)
@@ -117,7 +118,7 @@ def seconds_for(lives):
         for life in lives:
             law = replace(problem.law, coefficient=time / life)
             begin = perf_counter()
-            run, _ = run_advance(problem.contact, law, stop_limits, 1e14, 1e-4)
+            run, _ = run_advance(WearProblem(problem.contact, law, stop_limits, 1e14), 1e-4)
             times[life] = min(times[life], perf_counter() - begin)
             assert abs(run.cycles[-1] / life - 1.0) < 1e-4
     return times

@@ -6,12 +6,12 @@ It prints the tables of reports/reference/strand_kinks.md.
 from dataclasses import replace
 
 import numpy as np
-from problems import PACKAGE, STRAND, Problem, strand
+from problems import PACKAGE, STRAND, Problem, depth_limit, strand
 
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.drive.load_case import load_case
 from wearsim.geometry.profile_points import Profile
 from wearsim.wear.advance import run_advance
+from wearsim.wear.problem import WearProblem
 
 EXPONENTS = (1.0, 2.0)
 NODES = (200, 500, 1000, 2000)
@@ -84,7 +84,7 @@ def drift_lines():
     for exponent in EXPONENTS:
         given = problem(exponent, 801, False)
         contact = given.contact
-        run, _ = run_advance(contact, given.law, (depth_limit(given.limit),), 1e12, 1e-5)
+        run, _ = run_advance(WearProblem(contact, given.law, (depth_limit(given.limit),), 1e12), 1e-5)
         height, radius, _, end, start, per_overlap = contact.constants[:6]
         kinks = end + 1.0 / per_overlap, start - 1.0 / per_overlap
         first = None

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.integrate import LSODA, RK45
 
 from wearsim.contact.engagement import ContactKind, FlankContact
-from wearsim.contact.stop_limits import depth_limit
+from wearsim.contact.stop_limits import stop_limit
 from wearsim.drive.load_case import load_case
 from wearsim.kernels.controlled_steps import CLOCK, END, RATES, STATE_ROWS, wear_in_steps
 from wearsim.kernels.flank_geometry import flank_frame
@@ -22,11 +22,18 @@ from wearsim.kernels.per_cycle_loop import CYCLES_ROWS, run_cycles
 from wearsim.kernels.rosenbrock import STAGES, rosenbrock_step
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.wear.law import WearLaw, archard, power
-from wearsim.wear.per_cycle import run_per_cycle
+from wearsim.wear.loop import run_per_cycle
+from wearsim.wear.problem import WearProblem
 
 HORIZON = 1e12
 MODULUS = math.pi * 0.418**2 * 2.1e5
 """Contact modulus [MPa] that makes p = 0.418 sqrt(q E/rho_H), the rounded factor of B9, exact."""
+
+
+def depth_limit(depth):
+    """The limit of the source, physics.md (12)."""
+    return stop_limit("critical_depth_mm", depth, lambda x, y, worn: float(worn.max()))
+
 
 STRAND = {
     "format_version": 1,
@@ -215,7 +222,7 @@ def by_rk45(problem, tolerance):
 def every_cycle(problem):
     """The package's loop over all cycles, whole."""
     begin = perf_counter()
-    run = run_per_cycle(problem.contact, problem.law, (depth_limit(problem.limit),), HORIZON, 1)
+    run = run_per_cycle(WearProblem(problem.contact, problem.law, (depth_limit(problem.limit),), HORIZON), 1)
     return Run(float(run.cycles[-1]), run.updates, perf_counter() - begin)
 
 

@@ -5,11 +5,12 @@ from pathlib import Path
 from time import process_time
 
 import numpy as np
+from problems import depth_limit
 
-from wearsim.contact.stop_limits import depth_limit
 from wearsim.drive.load_case import load_case
 from wearsim.wear.implicit_steps import run_seated
 from wearsim.wear.law import archard
+from wearsim.wear.problem import WearProblem
 
 CASES = ("520-15t-wrap", "bicycle-17t-road", "d6-crawler-27t-wrap", "08b-19t-wrap", "a40-19t-rating")
 LEVELS = range(-1, 5)
@@ -35,7 +36,7 @@ def levelled(name, level):
     case = load_case(Path(__file__).parents[3] / "cases" / f"{name}.toml")
     contact, law = case.drive.contact(case), archard(case.wear.coefficient)
     begin = process_time()
-    run = run_seated(contact, law, (depth_limit(case.critical_depth),), 1e12, level)
+    run = run_seated(WearProblem(contact, law, (depth_limit(case.critical_depth),), 1e12), level)
     return Level(float(run.cycles[-1]), run.updates, process_time() - begin)
 
 

@@ -22,7 +22,7 @@ from wearsim.study.lubricate.intervals import (
     RelubricationPolicy,
     WornPart,
 )
-from wearsim.wear.wear_clock import WearClock
+from wearsim.wear.running_in import WearClock
 
 CONVENTIONS = (
     "lives are of parts that are new when they are lubricated; costs are in the long run, where parts are "

@@ -18,7 +18,7 @@ from wearsim.result.ends import CHAIN, SPROCKET
 from wearsim.simulation import case_clock, simulate
 from wearsim.simulation.wrap_life import chain_clock
 from wearsim.study.lubricate.model import LubricatedDrive, LubricationStudy, check_ages, lubrication_study
-from wearsim.wear.wear_clock import WearClock
+from wearsim.wear.running_in import WearClock
 
 _OF_A_LUBRICANT = (*LASTS, *FADES, "dry_factor", "completeness", "contamination_removed", *SUPPLY)
 """Keys that do not hold for another lubricant."""

@@ -4,14 +4,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.case.model import Case
-from wearsim.contact.resting_engagement import NEW_MATE, MateWear
+from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
 from wearsim.contact.stop_limits import LIMITS, StopLimit, deepest, stop_limit
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.result import Life, LowerBound, WearResult, life_of
 from wearsim.simulation.wear_task import wear_law
 from wearsim.simulation.wrap_life import wrap_of
-from wearsim.wear.resting_bodies import StartState
+from wearsim.wear.problem import StartState, WearProblem
 from wearsim.wear.settled_run import advance_resting
 
 
@@ -32,14 +32,9 @@ def reversed_life(case: Case, first: WearResult) -> tuple[Life | LowerBound, flo
     margins = [one.margin(*profile.receded(d), d) for one in stop_limits for d in start.depth]
     if min(margins) <= 0.0:
         return Life(0.0, 0.0), 0.0
-    run, error = advance_resting(
-        reversed_,
-        wear_law(case.wear, case.wear.coefficient),
-        stop_limits,
-        case.run.horizon_hours * case.cycles_per_hour,
-        case.run.life_tolerance,
-        start,
-    )
+    law, horizon = wear_law(case.wear, case.wear.coefficient), case.run.horizon_hours * case.cycles_per_hour
+    problem = WearProblem[RestingContact](reversed_, law, stop_limits, horizon, start)
+    run, error = advance_resting(problem, case.run.life_tolerance)
     return life_of(float(run.cycles[-1]), case.cycles_per_hour, run.met is not None), error
 
 

@@ -10,6 +10,7 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from types import FrameType
 
@@ -17,7 +18,7 @@ import numpy as np
 
 from wearsim.contact.engagement import FlankContact
 from wearsim.contact.resting_engagement import RestingContact
-from wearsim.contact.stop_limits import StopLimit, first_limit_met
+from wearsim.contact.stop_limits import StopLimit
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.hertz_wear import (
@@ -32,7 +33,7 @@ from wearsim.kernels.hertz_wear import (
     VANISHED,
     WORN,
 )
-from wearsim.wear.law import WearLaw
+from wearsim.wear.problem import AnyContact, WearProblem, first_place
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
 
 _BLOCK = 50_000
@@ -76,11 +77,9 @@ def _compiled_loop(contact: FlankContact) -> tuple[int, Callable[..., int]]:
 class _CycleRun:
     """State of the flank between blocks of compiled updates."""
 
-    def __init__(
-        self, contact: FlankContact, law: WearLaw, cycles_per_update: int, depth_limit: float
-    ) -> None:
-        self.depth_limit = depth_limit
-        self.contact = contact
+    def __init__(self, problem: WearProblem[FlankContact], cycles_per_update: int) -> None:
+        contact, law = problem.contact, problem.law
+        self.problem, self.contact, self.depth_limit = problem, contact, problem.depth_limit
         self.cycles_per_update = float(cycles_per_update)
         self.law, self.running_in = law.numbers(contact.kind), law.running_in
         self.diffusion = law.diffusion(contact.kind, contact.slip_curvature_exponent)
@@ -121,6 +120,12 @@ class _CycleRun:
             )
         check_sawtooth(self.contact, self.depth, self.ran, self.depth_limit)
 
+    def replay(self, snapshot: tuple[float, Vector, Vector, Vector], start: int, updates: int) -> None:
+        """Update so often from a snapshot, taken after the first ones."""
+        self.x[:], self.y[:], self.depth[:] = snapshot[1:]
+        self.updates = start
+        self.wear(np.inf, updates)
+
     def _block(self, depth: float, updates: int) -> int:
         done = np.zeros(1)
         with _interrupts_held():
@@ -157,24 +162,18 @@ class _CycleRun:
         )
 
 
-def check_length(
-    contact: FlankContact | RestingContact,
-    law: WearLaw,
-    stop_limits: tuple[StopLimit, ...],
-    expected: float,
-    cycles_per_update: int,
-) -> None:
+def check_length(problem: WearProblem[AnyContact], expected: float, cycles_per_update: int) -> None:
     """Refuse a run of too many updates before it starts; so many cycles are expected in all."""
     run: Callable[[], object]
-    if isinstance(contact, FlankContact):
-        most_updates, tried = int(_MAX_POINTS / contact.profile.x.size), 1000
-        run = partial(_CycleRun(contact, law, cycles_per_update, stop_limits[0].limit).wear, math.inf, tried)
-    else:
+    if isinstance(problem.contact, RestingContact):
         from wearsim.wear.implicit_steps import run_resting
 
         most_updates, tried = _MAX_RESTING, 10
         step = float(cycles_per_update)
-        run = partial(run_resting, contact, law, stop_limits, tried * step, 0, step)
+        run = partial(run_resting, replace(problem, horizon=tried * step), 0, step)
+    else:
+        most_updates, tried = int(_MAX_POINTS / problem.contact.profile.x.size), 1000
+        run = partial(_CycleRun(problem, cycles_per_update).wear, math.inf, tried)
     updates = expected / cycles_per_update
     if updates <= most_updates:
         return
@@ -188,21 +187,15 @@ def check_length(
     )
 
 
-def run_per_cycle(
-    contact: FlankContact | RestingContact,
-    law: WearLaw,
-    stop_limits: tuple[StopLimit, ...],
-    horizon: float,
-    cycles_per_update: int,
-) -> Trajectory:
+def run_per_cycle(problem: WearProblem[AnyContact], cycles_per_update: int) -> Trajectory:
     """Wear a flank update by update until a stop limit is met or the horizon is reached."""
-    if not isinstance(contact, FlankContact):
+    if isinstance(problem.contact, RestingContact):
         # Not imported for contacts that pass.
         from wearsim.wear.implicit_steps import run_resting
 
-        return run_resting(contact, law, stop_limits, horizon, 0, float(cycles_per_update))
-    run = _CycleRun(contact, law, cycles_per_update, stop_limits[0].limit)
-    check_touch(contact, run.x, run.y, run.depth, 0.0)
+        return run_resting(problem, 0, float(cycles_per_update))
+    horizon, run = problem.horizon, _CycleRun(problem, cycles_per_update)
+    check_touch(problem.contact, run.x, run.y, run.depth, 0.0)
     kept = [(0.0, run.x.copy(), run.y.copy(), run.depth.copy())]
     most_updates = int(horizon / cycles_per_update)
     if most_updates == 0:
@@ -217,9 +210,9 @@ def run_per_cycle(
         run.wear(target, most_updates - run.updates)
         if not interval:
             interval = float(min(run.depth_limit, run.depth.max() * most_updates)) / SNAPSHOTS
-        met = first_limit_met(stop_limits, run.x, run.y, run.depth)
+        met = problem.met(run.x, run.y, run.depth)
         if met is not None and run.updates - before[1] > 1:
-            _retreat(run, stop_limits, *before)
+            _retreat(run, *before)
         kept.append((run.cycles, run.x.copy(), run.y.copy(), run.depth.copy()))
     if met is not None:
         kept[-1] = _on_limit(run, met)
@@ -227,26 +220,14 @@ def run_per_cycle(
     return Trajectory(cycles, x, y, depth, met, run.updates)
 
 
-def _retreat(
-    run: _CycleRun,
-    stop_limits: tuple[StopLimit, ...],
-    snapshot: tuple[float, Vector, Vector, Vector],
-    start: int,
-) -> None:
+def _retreat(run: _CycleRun, snapshot: tuple[float, Vector, Vector, Vector], start: int) -> None:
     """Go back to the last snapshot and stop right after the first update that meets a limit."""
-    low, high = 0, run.updates - start
-    while high - low > 1:
-        middle = (low + high) // 2
-        _replay(run, snapshot, start, middle)
-        met = first_limit_met(stop_limits, run.x, run.y, run.depth)
-        low, high = (low, middle) if met is not None else (middle, high)
-    _replay(run, snapshot, start, high)
 
+    def fails(updates: int) -> bool:
+        run.replay(snapshot, start, updates)
+        return run.problem.met(run.x, run.y, run.depth) is not None
 
-def _replay(run: _CycleRun, snapshot: tuple[float, Vector, Vector, Vector], start: int, updates: int) -> None:
-    run.x[:], run.y[:], run.depth[:] = snapshot[1:]
-    run.updates = start
-    run.wear(np.inf, updates)
+    run.replay(snapshot, start, first_place(fails, 0, run.updates - start))
 
 
 def _on_limit(run: _CycleRun, met: StopLimit) -> tuple[float, Vector, Vector, Vector]:
