@@ -14,7 +14,7 @@ from wearsim.page.text_elements import assumption_list, heading, row_list, warni
 from wearsim.report.drive.drive_words import (
     band_text,
     first_text,
-    part_rows,
+    part_findings,
     ratings_text,
     taken_for_granted,
     worn_most_text,
@@ -124,7 +124,7 @@ class DrivePanel:
             else:
                 ui.label(f"Ratings: {ratings_text(found)}.")
             rows = [("Band", band_text(found)), ("Worn most", worn_most_text(found))]
-            row_list([*part_rows(found), *rows])
+            row_list([*part_findings(found), *rows])
             warning_list(found.doubts)
 
     def _fill_ratings(self, found: DriveLife) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 from wearsim.case.model import Case
 from wearsim.chain.selection import RatingFinding
 from wearsim.quantities import grouped
+from wearsim.report.table import Column, Table
 
 _WIDTH = 100
 
@@ -14,37 +15,38 @@ _WIDTH = 100
 def rating_json(case: Case) -> dict[str, Any]:
     """Return the ratings of a case as ``wearsim check --json`` prints them."""
     ratings = case.drive.ratings(case)
-    if not ratings:
-        return {}
-    keys = ("name", "value", "limit", "unit", "ok", "source", "note", "load")
-    return {
-        "rating": [{key: getattr(finding, key) for key in keys} for finding in ratings],
-        "notes": case.drive.notes(case),
-    }
+    return {"rating": ratings_table(ratings).records(), "notes": case.drive.notes(case)} if ratings else {}
 
 
-RATING_HEAD = ["rating", "value", "allowed", "margin", "used", "whose rule"]
-"""Heads of the columns of `rating_cells`."""
+def ratings_table(ratings: Sequence[RatingFinding]) -> Table[RatingFinding]:
+    """Return a row for each rating; on the screen those outside are marked."""
+    return Table(
+        [
+            Column("name", lambda one: one.name, "rating"),
+            Column("value", lambda one: one.value),
+            Column("", lambda one: in_unit(one, one.value), "value"),
+            Column("limit", lambda one: one.limit),
+            Column("", lambda one: f"{_side(one)} {in_unit(one, one.limit)}", "allowed"),
+            Column("unit", lambda one: one.unit),
+            Column("ok", lambda one: one.ok),
+            Column("", lambda one: in_unit(one, one.margin), "margin"),
+            Column("", lambda one: f"{grouped(100.0 * one.used)} %{'' if one.ok else ', outside'}", "used"),
+            Column("", rule, "whose rule"),
+            Column("source", lambda one: one.source),
+            Column("note", lambda one: one.note),
+            Column("load", lambda one: one.load),
+        ],
+        ratings,
+    )
 
 
-def rating_cells(ratings: Sequence[RatingFinding]) -> list[list[str]]:
-    """Return the ratings of a result in words, those outside marked."""
-    rows = []
-    for finding in ratings:
-        unit = f" {finding.unit}" if finding.unit else ""
-        side = "at least" if finding.at_least else "at most"
-        state = "" if finding.ok else ", outside"
-        rows.append(
-            [
-                finding.name,
-                f"{grouped(finding.value)}{unit}",
-                f"{side} {grouped(finding.limit)}{unit}",
-                f"{grouped(finding.margin)}{unit}",
-                f"{grouped(100.0 * finding.used)} %{state}",
-                rule(finding),
-            ]
-        )
-    return rows
+def in_unit(finding: RatingFinding, value: float) -> str:
+    """Return a value in the unit of a rating."""
+    return f"{grouped(value)} {finding.unit}".rstrip()
+
+
+def _side(finding: RatingFinding) -> str:
+    return "at least" if finding.at_least else "at most"
 
 
 def rule(finding: RatingFinding) -> str:
@@ -52,7 +54,7 @@ def rule(finding: RatingFinding) -> str:
     return "; ".join(text for text in (finding.source, finding.load, finding.note) if text)
 
 
-def rating_table(case: Case) -> str:
+def rating_text(case: Case) -> str:
     """Return the ratings of a case as ``wearsim check`` prints them."""
     found = case.drive.ratings(case)
     if not found:

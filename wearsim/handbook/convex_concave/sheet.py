@@ -23,7 +23,7 @@ from wearsim.handbook.convex_concave.model import (
     ZoneContact,
 )
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 _POINTS = 101
 
@@ -205,23 +205,21 @@ def _text(title: str, layout: PairLayout) -> str:
         f"{pair.contact_ratio:.4f} ({pair.approach_ratio:.4f} before the pitch point, "
         f"{pair.recess_ratio:.4f} after it); involute {layout.involute.contact_ratio:.4f}"
     )
-    return "\n".join(
-        [
-            title,
-            "",
-            *_gear_lines(layout),
-            "",
-            *_contact_lines(layout),
-            "",
-            row("Contact", f"ratio {ratio}"),
-            row("Reduced", _reduced(layout)),
-            row("Signs", _signs(pair.sign_conditions)),
-            row("Rack", _rack_text(layout)),
-            "",
-            *_roller_lines(layout),
-            "",
-            row("Assumes", numbered_assumptions(_ASSUMPTIONS)),
-        ]
+    return answer_text(
+        title,
+        "",
+        *_gear_lines(layout),
+        "",
+        *_contact_lines(layout),
+        "",
+        Finding("Contact", f"ratio {ratio}"),
+        Finding("Reduced", _reduced(layout)),
+        Finding("Signs", _signs(pair.sign_conditions)),
+        Finding("Rack", _rack_text(layout)),
+        "",
+        *_roller_lines(layout),
+        "",
+        Finding("Assumes", numbered_assumptions(_ASSUMPTIONS)),
     )
 
 

@@ -16,7 +16,7 @@ from wearsim.handbook.synthesise.figure import direction_figure, field_figure, i
 from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.model import MeshField, MeshPhase, direction_fields, stress_fields
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 _ASSUMPTIONS = (
     "the wheels are rigid, one pair of teeth carries the whole load, and there is no friction",
@@ -199,14 +199,14 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd
     kind = "at a pressure angle of 0, constant torque" if load.power else "at every angle"
     requested = f"{float(pair.stress.at(0.0)):.6g} MPa "
     takes = "is too little" if angle is None else f"takes a pressure angle of {angle:.6g} deg"
-    lines = [
+    parts: list[object] = [
         title,
-        row(
+        Finding(
             "Pair",
             f"pitch radii {circles.pinion_radius:.6g} and {circles.wheel_radius:.6g} mm, contact modulus "
             f"{pair.modulus:.6g} MPa, {load.base:.6g} N/mm {kind}",
         ),
-        row(
+        Finding(
             "Stress",
             f"at least {pair.least_pitch_point_stress:.6g} MPa at the pitch point (at "
             f"{math.degrees(load.best_pitch_point_angle):g} deg); {requested}{takes}",
@@ -215,9 +215,9 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd
     for number, phase in enumerate(phases, 1):
         rows = indices[indices["mesh_phase"] == number]
         shown = np.unique(np.linspace(0, len(rows) - 1, _ROWS).astype(int))
-        lines += ["", row(f"Phase {number}", _phase(phase, rows)), _HEAD]
-        lines += [_row(rows.iloc[at]) for at in shown]
-    return "\n".join([*lines, "", row("Assumes", numbered_assumptions(_ASSUMPTIONS))])
+        parts += ["", Finding(f"Phase {number}", _phase(phase, rows)), _HEAD]
+        parts += [_row(rows.iloc[at]) for at in shown]
+    return answer_text(*parts, "", Finding("Assumes", numbered_assumptions(_ASSUMPTIONS)))
 
 
 def _phase(phase: MeshPhase, rows: pd.DataFrame) -> str:

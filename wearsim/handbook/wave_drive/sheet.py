@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.handbook.wave_drive.model import MethodComparison, MethodDiameter
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -93,7 +93,7 @@ def _text(title: str, found: Sequence[MethodDiameter], assumptions: tuple[str, .
         )
     published = [f"  {_held(one)}" for one in found if not math.isnan(one.published)]
     lines += ["", *published] if published else []
-    return "\n".join([*lines, "", row("Assumes", numbered_assumptions(assumptions))])
+    return answer_text(*lines, "", Finding("Assumes", numbered_assumptions(assumptions)))
 
 
 def _held(one: MethodDiameter) -> str:

@@ -1,6 +1,7 @@
 """The plan of a drive as text, JSON and CSV files."""
 
-from pathlib import Path
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
@@ -8,7 +9,8 @@ from wearsim.drive.maintenance import DrivePlan
 from wearsim.drive.plan import ReplacementRule, Stop
 from wearsim.quantities import grouped
 from wearsim.report.drive.plan_words import rule_text
-from wearsim.report.text_lines import row, table_lines
+from wearsim.report.table import Column, Row, Table, table_of
+from wearsim.report.text_lines import Finding, answer_text, fenced
 from wearsim.result import Life, LowerBound, life_keys
 from wearsim.result.ends import CHAIN, before_wear
 from wearsim.result.lives import hours
@@ -35,12 +37,12 @@ def plan_json(plan: DrivePlan) -> dict[str, Any]:
         "parts": [{"part": name, **life_keys("life_hours", life)} for name, life in plan.lives.items()],
         "policies": [
             {
-                **_numbers(rule),
+                **numbers,
                 "description": rule_text(rule),
-                "parts": _parts(rule),
+                "parts": _parts([rule]).records(),
                 "schedule": [_stop(plan, stop) for stop in rule.schedule],
             }
-            for rule in plan.rules
+            for rule, numbers in zip(plan.rules, _policies(plan, plan.rules).records(), strict=True)
         ],
         "cheapest": None if best is None else best[0],
         "cheapest_is_certain": None if best is None else best[1],
@@ -50,44 +52,77 @@ def plan_json(plan: DrivePlan) -> dict[str, Any]:
     }
 
 
-def write_plan(plan: DrivePlan, text: str, place: Path) -> None:
-    """Write policies, their parts and their first stops, the words, and the picture into a folder."""
-    import pandas as pd
-
-    from wearsim.report.figures import save_figure
-
-    rules = plan.rules
-    parts = [{"policy": rule.name, **one} for rule in rules for one in _parts(rule)]
+def plan_files(plan: DrivePlan, text: str) -> dict[str, str]:
+    """Return policies, their parts and their first stops, and the words, each as the content of a file."""
     stops = [
         {"policy": rule.name, **_stop(plan, stop), "parts": ", ".join(stop.parts)}
-        for rule in rules
+        for rule in plan.rules
         for stop in rule.schedule
     ]
-    pd.DataFrame([_numbers(rule) for rule in rules]).to_csv(place / "policies.csv", index=False)
-    pd.DataFrame(parts).to_csv(place / "parts.csv", index=False)
-    pd.DataFrame(stops).to_csv(place / "schedule.csv", index=False)
-    (place / "maintenance.md").write_text(f"```\n{text}\n```\n", encoding="utf-8")
-    save_figure(plan.found.plot_history(), place, "history")
-
-
-def _numbers(rule: ReplacementRule) -> dict[str, Any]:
-    cost = None if rule.cost is None else _PER * rule.cost
     return {
-        "policy": rule.name,
-        **_bounded("stops_per_1000_h", _PER * rule.stop_rate, rule.stops_at_most),
-        **_bounded("cost_per_1000_h", cost, bool(rule.at_most)),
+        "policies.csv": _policies(plan, plan.rules).csv(),
+        "parts.csv": _parts(plan.rules, Column("policy", lambda one: one[0].name)).csv(),
+        "schedule.csv": table_of(stops).to_csv(index=False, lineterminator="\n"),
+        "maintenance.md": fenced(text),
     }
 
 
-def _parts(rule: ReplacementRule) -> list[dict[str, Any]]:
-    return [
-        {"part": name, **_bounded("parts_per_1000_h", _PER / every, name in rule.at_most)}
-        for name, every in rule.every.items()
-    ]
+def _policies(plan: DrivePlan, rules: Sequence[ReplacementRule]) -> Table[ReplacementRule]:
+    """Return stops and cost of rules in 1000 h; on the screen also the parts that they take."""
+    sprockets = [name for name in plan.lives if name != CHAIN]
+    groups = {name: [name] for name in (CHAIN, *sprockets)}
+    if len(sprockets) > _MAX_COLUMNS:
+        groups = {CHAIN: [CHAIN], "sprockets": sprockets}
+    return Table(
+        [
+            Column("policy", lambda one: one.name, "in 1000 h", side="<"),
+            *_bounded(
+                "stops_per_1000_h", lambda one: _PER * one.stop_rate, lambda one: one.stops_at_most, "stops"
+            ),
+            *(Column("", partial(_counted, names), head) for head, names in groups.items()),
+            *_bounded(
+                "cost_per_1000_h",
+                lambda one: None if one.cost is None else _PER * one.cost,
+                lambda one: bool(one.at_most),
+                None if rules[0].cost is None else "cost",
+            ),
+        ],
+        rules,
+    )
 
 
-def _bounded(key: str, value: float | None, at_most: bool) -> dict[str, float | None]:
-    return {key: None if at_most else value, f"{key}_at_most": value if at_most else None}
+def _counted(names: Sequence[str], rule: ReplacementRule) -> str:
+    return _limited(_PER * sum(1.0 / rule.every[name] for name in names), not rule.at_most.isdisjoint(names))
+
+
+_RulePart = tuple[ReplacementRule, str]
+
+
+def _parts(rules: Sequence[ReplacementRule], *before: Column[_RulePart]) -> Table[_RulePart]:
+    """Return how many of each part rules take in 1000 h."""
+    return Table(
+        [
+            *before,
+            Column("part", lambda one: one[1]),
+            *_bounded(
+                "parts_per_1000_h",
+                lambda one: _PER / one[0].every[one[1]],
+                lambda one: one[1] in one[0].at_most,
+            ),
+        ],
+        [(rule, name) for rule in rules for name in rule.every],
+    )
+
+
+def _bounded(
+    key: str, of: Callable[[Row], Any], at_most: Callable[[Row], bool], head: str | None = None
+) -> tuple[Column[Row], Column[Row], Column[Row]]:
+    """Return the columns of a number that is known, of one that is a bound, and of both on the screen."""
+    return (
+        Column(key, lambda row: None if at_most(row) else of(row)),
+        Column(f"{key}_at_most", lambda row: of(row) if at_most(row) else None),
+        Column("", lambda row: _limited(of(row), at_most(row)), head),
+    )
 
 
 def _stop(plan: DrivePlan, stop: Stop) -> dict[str, Any]:
@@ -103,15 +138,14 @@ def plan_text(plan: DrivePlan, source: str) -> str:
     lives = ", ".join(_life(plan, name, life) for name, life in plan.lives.items())
     rows = [
         *_cheapest(plan),
-        ("Replace", rule_text(plan.best)),
-        ("Stops", f"{plan.best.name}: {_stops(plan, plan.best)}"),
-        *(("Not known", text) for text in _not_known(plan)),
-        ("Assumes", f"{'; '.join(plan.conventions)}; all else: wearsim check {source}"),
-        ("Warnings", "; ".join(plan.found.warnings) or "none"),
+        Finding("Replace", rule_text(plan.best)),
+        Finding("Stops", f"{plan.best.name}: {_stops(plan, plan.best)}"),
+        *(Finding("Not known", text) for text in _not_known(plan)),
+        Finding("Assumes", f"{'; '.join(plan.conventions)}; all else: wearsim check {source}"),
+        Finding("Warnings", "; ".join(plan.found.warnings) or "none"),
     ]
-    return "\n".join(
-        [plan.drive.title, row("Lives", lives), *_table(plan), *(row(label, text) for label, text in rows)]
-    )
+    shown = plan.rules if len(plan.rules) <= _MAX_RULES else (*plan.rules[:_FIRST], plan.rules[-1])
+    return answer_text(plan.drive.title, Finding("Lives", lives), _policies(plan, shown), *rows)
 
 
 def _life(plan: DrivePlan, name: str, life: Life | LowerBound) -> str:
@@ -119,44 +153,23 @@ def _life(plan: DrivePlan, name: str, life: Life | LowerBound) -> str:
     return f"{name} {hours(life).replace('> ', '>= ')}" + (f" by {first.mode}" if first else "")
 
 
-def _table(plan: DrivePlan) -> list[str]:
-    """Return parts, stops and cost of every rule in 1000 h, in columns."""
-    sprockets = [name for name in plan.lives if name != CHAIN]
-    columns = [[CHAIN], *([name] for name in sprockets)]
-    heads = [CHAIN, *sprockets]
-    if len(sprockets) > _MAX_COLUMNS:
-        columns, heads = [[CHAIN], sprockets], [CHAIN, "sprockets"]
-    lines = [["in 1000 h", "stops", *heads, *(["cost"] if plan.rules[0].cost is not None else [])]]
-    rules = plan.rules
-    if len(rules) > _MAX_RULES:
-        rules = (*rules[:_FIRST], rules[-1])
-    for rule in rules:
-        counts = [
-            _limited(_PER * sum(1.0 / rule.every[name] for name in names), not rule.at_most.isdisjoint(names))
-            for names in columns
-        ]
-        cost = [] if rule.cost is None else [_limited(_PER * rule.cost, bool(rule.at_most))]
-        lines.append([rule.name, _limited(_PER * rule.stop_rate, rule.stops_at_most), *counts, *cost])
-    return [f"  {line}" for line in table_lines(lines, words=1)]
-
-
 def _limited(value: float, at_most: bool) -> str:
     return f"<= {grouped(value)}" if at_most else grouped(value)
 
 
-def _cheapest(plan: DrivePlan) -> list[tuple[str, str]]:
+def _cheapest(plan: DrivePlan) -> list[Finding]:
     best = plan.cheapest
     if best is None:
         if plan.rules[0].cost is not None:
             return []
-        return [("Cost", "not known without maintenance.chain_price and a price of every sprocket")]
+        return [Finding("Cost", "not known without maintenance.chain_price and a price of every sprocket")]
     rule = plan.rules[best[0]]
     assert rule.cost is not None
     most = "at most " if rule.at_most else ""
     text = f"{rule.name}, {most}{grouped(_PER * rule.cost)} in 1000 h"
     certain = "" if best[1] else ", as far as is known: a longer run may name another"
     no_less = f"; no plan costs less than {grouped(_PER * plan.no_less)}" if plan.no_less else ""
-    return [("Cheapest", text + certain + no_less)]
+    return [Finding("Cheapest", text + certain + no_less)]
 
 
 def _stops(plan: DrivePlan, rule: ReplacementRule) -> str:

@@ -8,7 +8,9 @@ import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped, percentile_meaning
-from wearsim.report.study_files import plain, save_figures, save_files
+from wearsim.report.study_files import save_figures, save_files
+from wearsim.report.table import plain
+from wearsim.report.text_lines import fenced
 from wearsim.study.uncertainty.cross_check import BoundedValue, CrossCheck, CrossFit
 from wearsim.study.uncertainty.model import UncertaintyStudy
 from wearsim.study.uncertainty.percentiles import B10, CONFIDENCE, DistributionFit, Percentile
@@ -96,7 +98,7 @@ def write_uncertainty(answer: UncertaintyAnswer, folder: Path) -> None:
     texts = {
         "cases.csv": answer.table.to_csv(index=False),
         "convergence.csv": answer.convergence.to_csv(index=False),
-        "summary.md": f"```\n{uncertainty_text(answer)}\n```\n",
+        "summary.md": fenced(uncertainty_text(answer)),
     }
     save_files(folder, texts)
     save_figures(folder, answer.study.scattered.case.title, uncertainty_figures(answer))
