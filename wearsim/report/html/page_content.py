@@ -17,9 +17,8 @@ from wearsim.report.figures import comparison_figures, picture
 from wearsim.report.flank_view import case_of
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.inputs import Input, catalogue_sources, input_table
-from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import Margin, margins
-from wearsim.report.html.run_charts import along_chart, history_chart, tooth_load_chart
+from wearsim.report.html.run_charts import along_chart, history_chart, lives_chart, tooth_load_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.report.rating import ratings_table
