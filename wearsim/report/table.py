@@ -67,7 +67,7 @@ class Table(Generic[Row]):
 
     def csv(self) -> str:
         """Return the rows as the content of a file."""
-        return self.frame().to_csv(index=False, lineterminator="\n")
+        return csv_of(self.frame())
 
     def write(self, path: Path) -> None:
         """Write the rows into a file."""
@@ -130,6 +130,16 @@ def life_columns(
 
     names = (key, f"{key}_at_least")
     return [*(Column(name, partial(bounded, name)) for name in names), Column("", of, head, hours)]
+
+
+def csv_of(frame: "pd.DataFrame") -> str:
+    """Return a table of pandas as the content of a file."""
+    return frame.to_csv(index=False, lineterminator="\n")
+
+
+def records_of(frame: "pd.DataFrame") -> list[dict[str, Any]]:
+    """Return the rows of a table of pandas as JSON has them."""
+    return [{str(name): plain(value) for name, value in row.items()} for row in frame.to_dict("records")]
 
 
 def plain(value: Any) -> Any:

@@ -36,6 +36,12 @@ def fenced(text: str) -> str:
     return f"```\n{text}\n```\n"
 
 
+def closing_lists(assumptions: Sequence[str], warnings: Sequence[str]) -> list[str]:
+    """Return what stands last in a long answer, an assumption and a warning on each line."""
+    numbered_lines = (f"  {number}. {text}" for number, text in enumerate(assumptions, start=1))
+    return ["", "assumptions:", *numbered_lines, *(f"warning: {text}" for text in warnings)]
+
+
 def closing(assumptions: Sequence[str], warnings: Sequence[str]) -> Iterator[Finding]:
     """Give what stands last in an answer: what it takes for granted, and what is doubtful about it."""
     yield Finding("Assumes", numbered_assumptions(assumptions))

@@ -16,6 +16,7 @@ from wearsim.handbook.synthesise.figure import direction_figure, field_figure, i
 from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.model import MeshField, MeshPhase, direction_fields, stress_fields
 from wearsim.report.calculation_sheet import CalculationSheet
+from wearsim.report.table import records_of
 from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 _ASSUMPTIONS = (
@@ -66,7 +67,7 @@ def synthesis_sheet(
             "best_pitch_point_angle_deg": math.degrees(pair.load.best_pitch_point_angle),
             "pitch_point_pressure_angle_deg": _pitch_point_angle(pair),
             "mesh_phases": [_summary(number, phase) for number, phase in enumerate(phases, 1)],
-            "indices": _plain(indices),
+            "indices": records_of(indices),
         },
         tables=lambda: made,
         figures=lambda: figures,
@@ -179,12 +180,6 @@ def _summary(number: int, phase: MeshPhase) -> dict[str, Any]:
         "end_pitch_point_distance_mm": None if end is None else end[0],
         "end_pressure_angle_deg": None if end is None else math.degrees(end[1]),
     }
-
-
-def _plain(table: pd.DataFrame) -> list[dict[str, Any]]:
-    """Return the rows as plain values, without nan and infinity."""
-    plain = table.astype(object).where(np.isfinite(table), None)
-    return [dict(zip(plain.columns, line, strict=True)) for line in plain.to_numpy().tolist()]
 
 
 _HEAD = (

@@ -1,6 +1,6 @@
 """The plan of a drive as text, JSON and CSV files."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -9,7 +9,7 @@ from wearsim.drive.maintenance import DrivePlan
 from wearsim.drive.plan import ReplacementRule, Stop
 from wearsim.quantities import grouped
 from wearsim.report.drive.plan_words import rule_text
-from wearsim.report.table import Column, Row, Table, table_of
+from wearsim.report.table import Column, Table, csv_of, table_of
 from wearsim.report.text_lines import Finding, answer_text, fenced
 from wearsim.result import Life, LowerBound, life_keys
 from wearsim.result.ends import CHAIN, before_wear
@@ -37,12 +37,12 @@ def plan_json(plan: DrivePlan) -> dict[str, Any]:
         "parts": [{"part": name, **life_keys("life_hours", life)} for name, life in plan.lives.items()],
         "policies": [
             {
-                **numbers,
+                **_numbers(rule),
                 "description": rule_text(rule),
-                "parts": _parts([rule]).records(),
+                "parts": _parts(rule),
                 "schedule": [_stop(plan, stop) for stop in rule.schedule],
             }
-            for rule, numbers in zip(plan.rules, _policies(plan, plan.rules).records(), strict=True)
+            for rule in plan.rules
         ],
         "cheapest": None if best is None else best[0],
         "cheapest_is_certain": None if best is None else best[1],
@@ -54,75 +54,38 @@ def plan_json(plan: DrivePlan) -> dict[str, Any]:
 
 def plan_files(plan: DrivePlan, text: str) -> dict[str, str]:
     """Return policies, their parts and their first stops, and the words, each as the content of a file."""
-    stops = [
-        {"policy": rule.name, **_stop(plan, stop), "parts": ", ".join(stop.parts)}
-        for rule in plan.rules
-        for stop in rule.schedule
-    ]
+    rules = plan.rules
+    tables: dict[str, list[dict[str, Any]]] = {
+        "policies": [_numbers(rule) for rule in rules],
+        "parts": [{"policy": rule.name, **one} for rule in rules for one in _parts(rule)],
+        "schedule": [
+            {"policy": rule.name, **_stop(plan, stop), "parts": ", ".join(stop.parts)}
+            for rule in rules
+            for stop in rule.schedule
+        ],
+    }
+    files = {f"{name}.csv": csv_of(table_of(rows)) for name, rows in tables.items()}
+    return {**files, "maintenance.md": fenced(text)}
+
+
+def _numbers(rule: ReplacementRule) -> dict[str, Any]:
+    cost = None if rule.cost is None else _PER * rule.cost
     return {
-        "policies.csv": _policies(plan, plan.rules).csv(),
-        "parts.csv": _parts(plan.rules, Column("policy", lambda one: one[0].name)).csv(),
-        "schedule.csv": table_of(stops).to_csv(index=False, lineterminator="\n"),
-        "maintenance.md": fenced(text),
+        "policy": rule.name,
+        **_bounded("stops_per_1000_h", _PER * rule.stop_rate, rule.stops_at_most),
+        **_bounded("cost_per_1000_h", cost, bool(rule.at_most)),
     }
 
 
-def _policies(plan: DrivePlan, rules: Sequence[ReplacementRule]) -> Table[ReplacementRule]:
-    """Return stops and cost of rules in 1000 h; on the screen also the parts that they take."""
-    sprockets = [name for name in plan.lives if name != CHAIN]
-    groups = {name: [name] for name in (CHAIN, *sprockets)}
-    if len(sprockets) > _MAX_COLUMNS:
-        groups = {CHAIN: [CHAIN], "sprockets": sprockets}
-    return Table(
-        [
-            Column("policy", lambda one: one.name, "in 1000 h", side="<"),
-            *_bounded(
-                "stops_per_1000_h", lambda one: _PER * one.stop_rate, lambda one: one.stops_at_most, "stops"
-            ),
-            *(Column("", partial(_counted, names), head) for head, names in groups.items()),
-            *_bounded(
-                "cost_per_1000_h",
-                lambda one: None if one.cost is None else _PER * one.cost,
-                lambda one: bool(one.at_most),
-                None if rules[0].cost is None else "cost",
-            ),
-        ],
-        rules,
-    )
+def _parts(rule: ReplacementRule) -> list[dict[str, Any]]:
+    return [
+        {"part": name, **_bounded("parts_per_1000_h", _PER / every, name in rule.at_most)}
+        for name, every in rule.every.items()
+    ]
 
 
-def _counted(names: Sequence[str], rule: ReplacementRule) -> str:
-    return _limited(_PER * sum(1.0 / rule.every[name] for name in names), not rule.at_most.isdisjoint(names))
-
-
-_RulePart = tuple[ReplacementRule, str]
-
-
-def _parts(rules: Sequence[ReplacementRule], *before: Column[_RulePart]) -> Table[_RulePart]:
-    """Return how many of each part rules take in 1000 h."""
-    return Table(
-        [
-            *before,
-            Column("part", lambda one: one[1]),
-            *_bounded(
-                "parts_per_1000_h",
-                lambda one: _PER / one[0].every[one[1]],
-                lambda one: one[1] in one[0].at_most,
-            ),
-        ],
-        [(rule, name) for rule in rules for name in rule.every],
-    )
-
-
-def _bounded(
-    key: str, of: Callable[[Row], Any], at_most: Callable[[Row], bool], head: str | None = None
-) -> tuple[Column[Row], Column[Row], Column[Row]]:
-    """Return the columns of a number that is known, of one that is a bound, and of both on the screen."""
-    return (
-        Column(key, lambda row: None if at_most(row) else of(row)),
-        Column(f"{key}_at_most", lambda row: of(row) if at_most(row) else None),
-        Column("", lambda row: _limited(of(row), at_most(row)), head),
-    )
+def _bounded(key: str, value: float | None, at_most: bool) -> dict[str, float | None]:
+    return {key: None if at_most else value, f"{key}_at_most": value if at_most else None}
 
 
 def _stop(plan: DrivePlan, stop: Stop) -> dict[str, Any]:
@@ -144,13 +107,31 @@ def plan_text(plan: DrivePlan, source: str) -> str:
         Finding("Assumes", f"{'; '.join(plan.conventions)}; all else: wearsim check {source}"),
         Finding("Warnings", "; ".join(plan.found.warnings) or "none"),
     ]
-    shown = plan.rules if len(plan.rules) <= _MAX_RULES else (*plan.rules[:_FIRST], plan.rules[-1])
-    return answer_text(plan.drive.title, Finding("Lives", lives), _policies(plan, shown), *rows)
+    return answer_text(plan.drive.title, Finding("Lives", lives), _table(plan), *rows)
 
 
 def _life(plan: DrivePlan, name: str, life: Life | LowerBound) -> str:
     first = before_wear(plan.found.ends, name)
     return f"{name} {hours(life).replace('> ', '>= ')}" + (f" by {first.mode}" if first else "")
+
+
+def _table(plan: DrivePlan) -> Table[ReplacementRule]:
+    """Return parts, stops and cost of every rule in 1000 h."""
+    sprockets = [name for name in plan.lives if name != CHAIN]
+    each = {name: [name] for name in sprockets}
+    groups = {CHAIN: [CHAIN], **(each if len(sprockets) <= _MAX_COLUMNS else {"sprockets": sprockets})}
+    rules, cost = plan.rules, None if plan.rules[0].cost is None else "cost"
+    columns: list[Column[ReplacementRule]] = [
+        Column("", lambda rule: rule.name, "in 1000 h", side="<"),
+        Column("", lambda rule: _limited(_PER * rule.stop_rate, rule.stops_at_most), "stops"),
+        *(Column("", partial(_counted, names), head) for head, names in groups.items()),
+        Column("", lambda rule: _limited(_PER * (rule.cost or 0.0), bool(rule.at_most)), cost),
+    ]
+    return Table(columns, rules if len(rules) <= _MAX_RULES else (*rules[:_FIRST], rules[-1]))
+
+
+def _counted(names: Sequence[str], rule: ReplacementRule) -> str:
+    return _limited(_PER * sum(1.0 / rule.every[name] for name in names), not rule.at_most.isdisjoint(names))
 
 
 def _limited(value: float, at_most: bool) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.report.table import Column, Table
+from wearsim.report.table import Column, Table, csv_of
 from wearsim.report.text_lines import Finding, answer_text, closing, fenced
 from wearsim.study.judge.model import FittedConstant, JudgedLaw, Judgement
 
@@ -134,7 +134,7 @@ def judgement_files(found: Judgement) -> dict[str, str]:
     """Return tables and summary, each as the content of a file."""
     return {
         "laws.csv": laws_table(found).csv(),
-        "constants.csv": constants_table(found).to_csv(index=False, lineterminator="\n"),
-        "forecasts.csv": forecasts_table(found).to_csv(index=False, lineterminator="\n"),
+        "constants.csv": csv_of(constants_table(found)),
+        "forecasts.csv": csv_of(forecasts_table(found)),
         "summary.md": fenced(judgement_text(found)),
     }

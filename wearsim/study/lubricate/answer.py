@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.quantities import grouped
 from wearsim.report.public_answer import DrawnAnswer
-from wearsim.report.table import table_of
+from wearsim.report.table import csv_of, table_of
 from wearsim.runner.in_threads import Progress, silent
 from wearsim.study.lubricate.model import LubricationStudy
 from wearsim.study.lubricate.runs import compare_intervals
@@ -78,8 +78,7 @@ class LubricationResult(DrawnAnswer):
         return {"lubrication": lubrication_figure(self.study)}
 
     def _files(self) -> Mapping[str, str]:
-        intervals = self.intervals.to_csv(index=False, lineterminator="\n")
-        return {"intervals.csv": intervals, "lubrication.txt": f"{self.text}\n"}
+        return {"intervals.csv": csv_of(self.intervals), "lubrication.txt": f"{self.text}\n"}
 
 
 def lubricate(case: CaseInput, *, progress: Progress = silent) -> LubricationResult:

@@ -10,7 +10,7 @@ from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.study_files import save_figures, save_files
 from wearsim.report.table import Column, Table, plain
-from wearsim.report.text_lines import counts_by_kind
+from wearsim.report.text_lines import closing_lists, counts_by_kind
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.optimise.design_files import save_designs
 from wearsim.study.optimise.model import OptimiseStudy
@@ -135,10 +135,7 @@ def optimise_text(outcome: OptimiseOutcome) -> str:
     lines.append(f"tried        {len(outcome.candidates)} designs, {len(failed)} not feasible")
     if failed:
         lines.append(f"             {commonest_reason(study, failed)}")
-    texts = study.assumptions(outcome.cases)
-    lines += ["", "assumptions:"]
-    lines += [f"  {number}. {text}" for number, text in enumerate(texts, start=1)]
-    lines += [f"warning: {text}" for text in optimise_warnings(outcome)]
+    lines += closing_lists(study.assumptions(outcome.cases), optimise_warnings(outcome))
     return "\n".join(lines)
 
 

@@ -16,7 +16,7 @@ from wearsim.report.figures import number_ticks
 from wearsim.report.key_words import key_words
 from wearsim.report.study_files import save_figures, save_files
 from wearsim.report.table import Column, Table
-from wearsim.report.text_lines import fenced
+from wearsim.report.text_lines import closing_lists, fenced
 from wearsim.runner.design import value_at
 from wearsim.runner.scatter import coefficient_key
 from wearsim.study.sensitivity.model import HIGH, LOW, KeyEffect, SensitivityStudy
@@ -107,10 +107,8 @@ def sensitivity_text(answer: SensitivityAnswer) -> str:
         lines.append(f"  {effect.scatter.key:<{width}}  {effect.scatter.value:.4g} -> {shown}")
     lines += ["", "what scatters:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in scattered.scatters]
-    lines += ["", "assumptions:"]
-    texts = [*scattered.assumptions, *scattered.case.assumptions]
-    lines += [f"  {number}. {text}" for number, text in enumerate(texts, start=1)]
-    lines += [f"warning: {text}" for text in (*answer.warnings, *scattered.case.warnings)]
+    assumptions = [*scattered.assumptions, *scattered.case.assumptions]
+    lines += closing_lists(assumptions, [*answer.warnings, *scattered.case.warnings])
     if only_coefficients(scattered.case, scattered.keys):
         lines += ["", _OFFER, "", "[uncertainty]", *usual_scatters(scattered.case)]
     return "\n".join(lines)

@@ -12,7 +12,7 @@ import pandas as pd
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.study_files import save_figures, save_files
-from wearsim.report.table import Column, Table, plain
+from wearsim.report.table import Column, Table, records_of
 from wearsim.runner.shard import life_columns
 from wearsim.study.sweep.model import Sweep
 
@@ -33,8 +33,7 @@ def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
 def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
     """Return a sweep as JSON, an object for each case."""
     lines = []
-    for row in table.to_dict("records"):
-        known = {name: plain(value) for name, value in row.items()}
+    for known in records_of(table):
         inputs = {key: known.pop(key) for key in sweep.design.keys}
         content = ANSWER_HEAD | {"case": sweep.design.name, "inputs": inputs, **known}
         lines.append(json.dumps(content, ensure_ascii=False, allow_nan=False))
