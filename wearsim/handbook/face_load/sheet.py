@@ -9,6 +9,7 @@ from wearsim.handbook.face_load.face_wear import FaceRunningIn, FaceState
 from wearsim.handbook.face_load.model import FaceLoad
 from wearsim.quantities import grouped
 from wearsim.report.calculation_sheet import CalculationSheet
+from wearsim.report.table import plain
 from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 if TYPE_CHECKING:
@@ -40,12 +41,11 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> Cal
         for name, run in _runs(found)
         for hours, factor in zip(run.hours.tolist(), run.factors.tolist(), strict=True)
     ]
-    lasting = found.varying_hours
     content = {
         "title": title,
         "mean_load_per_width_N_per_mm": found.mesh.mean_load,
         "fixed_running_in_hours": found.fixed_hours,
-        "varying_running_in_hours": None if math.isinf(lasting) else lasting,
+        "varying_running_in_hours": plain(found.varying_hours),
         "states": states,
         "history": history,
         "assumptions": list(assumptions),

@@ -19,6 +19,7 @@ from wearsim.handbook.strength.model import (
 )
 from wearsim.quantities import grouped
 from wearsim.report.calculation_sheet import CalculationSheet
+from wearsim.report.table import plain
 from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 if TYPE_CHECKING:
@@ -184,10 +185,6 @@ def _acting(pair: PairStrength) -> list[tuple[GearEndurance, Sequence[StressChec
     return list(zip(pair.gears, pair.stresses or ((), ()), strict=True))
 
 
-def _known(value: float) -> float | None:
-    return None if math.isnan(value) else value
-
-
 def _pair_content(pair: PairStrength) -> dict[str, Any]:
     content: dict[str, Any] = {
         "life_hours": pair.hours,
@@ -235,14 +232,14 @@ def _gear_row(gear: GearEndurance, acting: Sequence[StressCheck]) -> dict[str, A
             f"raw_{name}_life_factor": endured.raw_factor,
             f"{name}_life_factor": endured.factor,
             f"allowable_{name}_MPa": endured.allowable,
-            f"greatest_{name}_MPa": _known(endured.greatest),
+            f"greatest_{name}_MPa": plain(endured.greatest),
         }
     for name, one in zip(_NAMES, acting, strict=False):
         found |= {
             f"{name}_stress_MPa": one.lasting,
             f"{name}_margin": one.margin,
             f"peak_{name}_stress_MPa": one.peak,
-            f"{name}_overload_margin": _known(one.peak_margin),
+            f"{name}_overload_margin": plain(one.peak_margin),
             f"{name}_life_hours": one.life.hours,
             f"{name}_life_is_bound": one.life.bound,
         }

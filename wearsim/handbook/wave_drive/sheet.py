@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.handbook.wave_drive.model import MethodComparison, MethodDiameter
 from wearsim.report.calculation_sheet import CalculationSheet
+from wearsim.report.table import plain
 from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 if TYPE_CHECKING:
@@ -60,7 +61,6 @@ def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequenc
 
 
 def _row(one: MethodDiameter) -> dict[str, Any]:
-    known = not math.isnan(one.published)
     return {
         "sizing_method": one.method.name,
         "textbook": one.method.source,
@@ -71,10 +71,10 @@ def _row(one: MethodDiameter) -> dict[str, Any]:
         "rank": one.rank,
         "least_rank": one.least_rank,
         "greatest_rank": one.greatest_rank,
-        "published_diameter_mm": one.published if known else None,
-        "reproduces": one.reproduces if known else None,
+        "published_diameter_mm": plain(one.published),
+        "reproduces": None if math.isnan(one.published) else one.reproduces,
         "allowable": one.method.allowable,
-        "needed_allowable": None if math.isnan(one.needed) else one.needed,
+        "needed_allowable": plain(one.needed),
     }
 
 
