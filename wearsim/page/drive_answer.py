@@ -18,8 +18,7 @@ from wearsim.page.chart_colours import Palette
 from wearsim.page.drive_panel import DrivePanel
 from wearsim.page.edited_input import EditedInput, edited_title
 from wearsim.page.header import Header
-from wearsim.report.drive.layout_sketch import layout_sketch
-from wearsim.report.drive.lives_bars import lives_bars
+from wearsim.report.drive.drive_drawings import layout_sketch, lives_bars
 from wearsim.report.drive.page_tables import wheel_of
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.tooth_chart import worn_out_chart

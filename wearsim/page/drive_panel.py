@@ -11,6 +11,7 @@ from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, LinkedDrawing
 from wearsim.page.rating_lights import rating_list
 from wearsim.page.text_elements import assumption_list, heading, row_list, warning_list
+from wearsim.report.drive.drive_drawings import flank_place
 from wearsim.report.drive.drive_words import (
     band_text,
     first_text,
@@ -19,7 +20,6 @@ from wearsim.report.drive.drive_words import (
     taken_for_granted,
     worn_most_text,
 )
-from wearsim.report.drive.layout_sketch import flank_place
 from wearsim.report.html.charts import Chart
 from wearsim.report.text_lines import unbroken
 from wearsim.result.ends import first_hours

@@ -17,6 +17,7 @@ from wearsim.geometry.scene import Circle, Scene
 from wearsim.quantities import grouped
 from wearsim.report import html
 from wearsim.report.answer import overload_text
+from wearsim.report.drive.drive_drawings import flank_place, layout_sketch, lives_bars
 from wearsim.report.drive.drive_words import (
     against_hours,
     first_text,
@@ -25,8 +26,6 @@ from wearsim.report.drive.drive_words import (
     taken_for_granted,
     within_text,
 )
-from wearsim.report.drive.layout_sketch import flank_place, layout_sketch
-from wearsim.report.drive.lives_bars import lives_bars
 from wearsim.report.drive.page_tables import (
     chain_rows,
     geometry_table,
