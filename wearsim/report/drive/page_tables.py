@@ -8,7 +8,6 @@ from typing import Any
 from wearsim.catalogue.catalogues import wear_laws
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
 from wearsim.chain.loop_layout import LoopLayout
-from wearsim.chain.selection import RatingFinding
 from wearsim.drive.drive_case import DriveCase, DriveSprocket
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan
@@ -19,32 +18,10 @@ from wearsim.mechanisms.wrap.drive import PRESSURE_SPEED, JointInput
 from wearsim.quantities import grouped
 from wearsim.report.drive.drive_words import part_ending
 from wearsim.report.drive.layout import layout_json
-from wearsim.report.rating import in_unit
 from wearsim.report.table import Column, Table
 from wearsim.result import Life
 from wearsim.result.lives import hours
 from wearsim.result.service import service_measures
-
-
-def sheet_ratings(found: DriveLife) -> tuple[Table[RatingFinding], tuple[str, ...]]:
-    """Return the ratings with their margins, and the notes that their sources point to."""
-    ratings = found.reference.ratings
-    notes = tuple(dict.fromkeys(one.note for one in ratings if one.note))
-
-    def source(one: RatingFinding) -> str:
-        mark = f" [{notes.index(one.note) + 1}]" if one.note else ""
-        return "; ".join(text for text in (one.source, one.load) if text) + mark
-
-    columns: list[Column[RatingFinding]] = [
-        Column("", lambda one: one.name, "rating", side="<"),
-        Column("", lambda one: in_unit(one, one.value), "value"),
-        Column("", lambda one: f"{'≥' if one.at_least else '≤'} {in_unit(one, one.limit)}", "allowed"),
-        Column("", lambda one: in_unit(one, one.margin), "margin"),
-        Column("", lambda one: f"{grouped(100.0 * one.used, 3)} %", "used"),
-        Column("", lambda one: "ok" if one.ok else "outside", "verdict", side="<"),
-        Column("", source, "source", side="<"),
-    ]
-    return Table(columns, ratings), notes
 
 
 def wheel_of(drive: DriveCase) -> dict[str, DriveWheel]:

@@ -34,11 +34,11 @@ from wearsim.report.drive.page_tables import (
     lubrication_rows,
     plan_table,
     shaft_table,
-    sheet_ratings,
     span_table,
 )
 from wearsim.report.html.page_content import HtmlTable, chain_tables
 from wearsim.report.html.sketch import sketch
+from wearsim.report.rating import sheet_ratings
 from wearsim.report.table import Table
 from wearsim.report.text_lines import unbroken
 from wearsim.report.worn_flank import around_flank, worn_flanks
@@ -90,7 +90,7 @@ class SheetPage:
     jumping: str
     layout: Markup
     ratings: Table[Any]
-    rating_notes: tuple[str, ...]
+    rating_notes: list[str]
     chain: list[tuple[str, str]]
     geometry: Table[Any]
     shafts: Table[Any]
@@ -154,7 +154,7 @@ def sheet_html(found: DriveLife, head: SheetHead) -> str:
 def _page(found: DriveLife, head: SheetHead) -> SheetPage:
     drive = found.drive
     driver, places = found.reference, [one.name for one in drive.sprockets]
-    ratings, notes = sheet_ratings(found)
+    ratings, notes = sheet_ratings(driver.ratings)
     plan = drive_plan(found)
     assumptions, defaults = taken_for_granted(found)
     return SheetPage(
