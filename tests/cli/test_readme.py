@@ -260,7 +260,7 @@ def test_output_md_has_every_key_and_column(result, wrapped):
     assert documented(OUTPUT, "history.csv") == list(result.history)
     assert documented(OUTPUT, "flank.csv") == list(result.flank)
     assert documented(OUTPUT, "profile") == list(profile_table(wearsim.load_case(ROOT / CASE)))
-    assert documented(OUTPUT, "summary.csv") == list(comparison_table([result]))
+    assert documented(OUTPUT, "summary.csv") == list(comparison_table([result]).frame())
 
 
 def test_output_md_has_every_file(checkout):

@@ -3,7 +3,7 @@
 from wearsim.chain.drive_layout import ToothMeetings
 from wearsim.result import Life, LowerBound
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
-from wearsim.study.maintain.sheet import count_rows, maintenance_text, policy_rows
+from wearsim.study.maintain.sheet import counts_table, maintenance_text, policies_table
 from wearsim.study.maintain.tooth_count import ToothCount
 from wearsim.study.remaining.model import RemainingLife, SingleReading
 from wearsim.study.remaining.sheet import remaining_json, remaining_text
@@ -15,7 +15,7 @@ def test_policy_of_a_sprocket_that_outlives_the_run():
     known = ReplacementPolicy(0.03, False, 20_000.0, Life(3e9, 50_000.0), 0.001)
     count = ToothCount(ToothMeetings(19, 100), True, {"chain": Life(1e9, 20_000.0)})
     plan = MaintenancePlan("a", "A", (policy, known), (count,), 0.03, (), (), ())
-    bound, row = policy_rows(plan)
+    bound, row = policies_table(plan).records()
     assert (bound["sprocket_life_hours"], bound["sprocket_life_hours_at_least"]) == (None, 50_000.0)
     assert (bound["chains_per_sprocket"], bound["chains_per_sprocket_at_least"]) == (None, 3)
     assert bound["last_chain_used"] is bound["stops"] is None
@@ -24,7 +24,7 @@ def test_policy_of_a_sprocket_that_outlives_the_run():
     assert (row["last_chain_used"], row["stops"]) == (0.5, 3)
     shown = maintenance_text(plan).splitlines()[2]
     assert " ".join(shown.split()) == "2 % no 20 000 h > 2 - > 50 000 h - -"
-    (counted,) = count_rows(plan)
+    (counted,) = counts_table(plan).records()
     assert counted["chain_life_hours"] == 20_000.0
     assert counted["sprocket_life_hours"] is counted["sprocket_life_hours_at_least"] is None
 

@@ -17,7 +17,7 @@ from wearsim.result import Life, LowerBound
 from wearsim.simulation.wear_task import wear_law
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy, cost_per_1000_hours, maintain
 from wearsim.study.maintain.reversed_sprocket import reversed_life
-from wearsim.study.maintain.sheet import maintenance_page, maintenance_text, policy_rows
+from wearsim.study.maintain.sheet import maintenance_page, maintenance_text, policies_table
 from wearsim.study.maintain.tooth_count import meetings_around, variant
 from wearsim.wear.implicit_steps import run_resting
 from wearsim.wear.problem import StartState, WearProblem
@@ -206,7 +206,7 @@ def test_sprocket_whose_limit_is_not_reached(without_counts):
     text = maintenance_text(found)
     assert "> 5 h" in text
     assert "raise run.horizon_hours" in text
-    (row,) = policy_rows(found)
+    (row,) = policies_table(found).records()
     assert (row["life_reached"], row["hours_run"]) == (False, 5.0)
     of_a_life = ("sprocket_life_hours", "chains_per_sprocket", "last_chain_used", "stops")
     assert [row[name] for name in of_a_life] == [None] * 4
@@ -284,7 +284,7 @@ def test_page_and_text_hold_the_same_numbers(plan):
 def test_policies_are_those_asked_for(without_counts, plan):
     """Without turning, and at 1 % only: the row of the plan with both."""
     one = {"replace_at_percent": [1.0], "turn_sprocket": False}
-    assert policy_rows(maintain(case(maintenance=one))) == policy_rows(plan)[:1]
+    assert policies_table(maintain(case(maintenance=one))).records() == policies_table(plan).records()[:1]
 
 
 @pytest.mark.parametrize(

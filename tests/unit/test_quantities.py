@@ -45,7 +45,7 @@ from wearsim.study.optimise.sheet import candidates_table
 from wearsim.study.optimise.trials import Candidate, OptimiseOutcome
 from wearsim.study.select.model import select
 from wearsim.study.select.requirements import DriveRequirements
-from wearsim.study.select.sheet import drive_columns
+from wearsim.study.select.sheet import drives_table
 from wearsim.study.sensitivity.model import KeyEffect
 from wearsim.study.sensitivity.sheet import SensitivityAnswer, sensitivity_table
 
@@ -162,22 +162,22 @@ def study_columns():
     readings = cases / "studies" / "16b-20t-readings.csv"
     found = calibrate(cases / "16b-20t-oiled.toml", readings)
     answer = SensitivityAnswer(None, 1.0, [effect], {scatter.key: 1.0}, ())
-    yield from (*COLUMNS, *sensitivity_table(answer))
-    yield from (*TIMES, *REQUIRED, *OPTIONAL, *readings_table(found), *values_table(found))
+    yield from (*COLUMNS, *sensitivity_table(answer).frame())
+    yield from (*TIMES, *REQUIRED, *OPTIONAL, *readings_table(found).frame(), *values_table(found).frame())
     rows = [{"distance_km": 1500, "quantity": "elongation_percent", "value": 0.2}]
     state = wearsim.remaining(wearsim.load_case("bicycle-17t-road"), readings=rows)
     yield from (*state.intervals, *state.readings)
     measures = {"life_hours": 1.0, "mass_kg": 1.0}
     one = Candidate(1, (), measures, True, "critical_depth_mm", 0.0, "", "")
     study = SimpleNamespace(space=SearchSpace(()), measures=tuple(measures), limits={})
-    yield from candidates_table(OptimiseOutcome(study, one, (one,), (one,), True), [one])
-    yield from drive_columns(select(DriveRequirements(3.0, 120.0, 2.7, 15_000.0))[0])
+    yield from candidates_table(OptimiseOutcome(study, one, (one,), (one,), True), [one]).frame()
+    yield from drives_table(select(DriveRequirements(3.0, 120.0, 2.7, 15_000.0))).frame()
     judgement = judge_series(
         read_series(cases / "studies" / "metal-wear.csv"), 100, lambda law, _: law == "powers"
     )
     yield from SERIES_COLUMNS
-    for table in (laws_table, constants_table, forecasts_table):
-        yield from table(judgement)
+    yield from laws_table(judgement).frame()
+    yield from (*constants_table(judgement), *forecasts_table(judgement))
     yield from ("samples", *(f"p{share}_hours" for share in (10, 50, 90)))
 
 
@@ -194,7 +194,7 @@ def written(tmp_path_factory):
         *schema["$defs"]["life"]["properties"],
         *profile_table(case),
         *wheel_points(wheel_shapes(case, None), ("new",)),
-        *comparison_table([result]),
+        *comparison_table([result]).frame(),
         *wrapped(),
         *MECHANISMS["gear_pair"].flank,
         *(

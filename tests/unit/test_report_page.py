@@ -23,10 +23,9 @@ from wearsim.report.figures import flanks_figure
 from wearsim.report.flank_view import case_of
 from wearsim.report.html import page_content as page
 from wearsim.report.html import page_writer
-from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import margins
 from wearsim.report.html.page_writer import save_report
-from wearsim.report.html.run_charts import along_chart, history_chart
+from wearsim.report.html.run_charts import along_chart, history_chart, lives_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.result import LimitState, WearResult

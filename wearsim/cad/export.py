@@ -45,6 +45,8 @@ class ExportResult(Answer):
         What was written.
     """
 
+    _tables = ("outline",)
+
     case: Case
     result: WearResult | None
     states: tuple[State, ...]
@@ -94,24 +96,7 @@ class ExportResult(Answer):
         check_solid(self.case, form)
         return content(self.case, self.result, self.states, form)
 
-    def tables(self) -> "dict[str, pd.DataFrame]":
-        """Return the points of the wheels.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``outline``.
-        """
-        return {"outline": self.outline}
-
-    def summary(self) -> dict[str, Any]:
-        """Return what was written.
-
-        Returns
-        -------
-        dict
-            Case, states and files as plain values.
-        """
+    def _content(self) -> dict[str, Any]:
         files = list(map(str, self.files))
         return {**ANSWER_HEAD, "case": self.case.name, "states": list(self.states), "files": files}
 

@@ -62,8 +62,8 @@ def compare(
     _check_alike(loaded.values())
     found = results_of(loaded, as_json)
     from wearsim.drive.drive_result import DriveLife
-    from wearsim.report.comparison import comparison_text, differing_limits, distinct, save_comparison
-    from wearsim.report.drive.drives_table import drives_text, save_drives
+    from wearsim.report.comparison import comparison_table, differing_limits, distinct, save_comparison
+    from wearsim.report.drive.drives_table import drives_table, save_drives
 
     drives = [one for one in found.values() if isinstance(one, DriveLife)]
     runs = {str(path): one for path, one in found.items() if not isinstance(one, DriveLife)}
@@ -78,7 +78,7 @@ def compare(
         for path, result in found.items():
             print_json(result.summary(), path)
     else:
-        show(drives_text(drives) if drives else comparison_text(singles))
+        show((drives_table(drives) if drives else comparison_table(singles)).markdown())
     if limits := differing_limits(singles):
         warn(f"warning: {limits}")
     if xlsx is not None:

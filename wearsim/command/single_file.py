@@ -78,7 +78,7 @@ def write_workbook(results: "Mapping[Path, WearResult | DriveLife]", file: Path,
     """
     from wearsim.drive.drive_result import DriveLife
     from wearsim.report.comparison import distinct
-    from wearsim.report.drive.drive_words import found_rows
+    from wearsim.report.drive.drive_words import drive_findings
     from wearsim.report.workbook import save_workbook
 
     sheets: dict[str, WearResult] = {}
@@ -86,7 +86,7 @@ def write_workbook(results: "Mapping[Path, WearResult | DriveLife]", file: Path,
     for path, result in results.items():
         if isinstance(result, DriveLife):
             sheets |= {f"{result.drive.name} {one.case}": one for one in result.titled()}
-            said[result.title] = found_rows(result)
+            said[result.title] = drive_findings(result)
         else:
             sheets[str(path)] = result
     save_workbook(distinct(list(sheets.values()), list(sheets)), file, force, said)

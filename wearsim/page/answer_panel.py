@@ -21,16 +21,7 @@ from wearsim.page.text_elements import (
     warning_list,
 )
 from wearsim.quantities import grouped
-from wearsim.report.answer import (
-    BAND,
-    LIMITS,
-    OVERLOADED,
-    chain_rows,
-    ending,
-    findings,
-    headline,
-    overload_text,
-)
+from wearsim.report.answer import OVERLOADED, chain_findings, ending, headline, overload_text, page_findings
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
 from wearsim.report.html.run_charts import tooth_load_chart
@@ -150,11 +141,10 @@ class AnswerPanel:
         self._text.clear()
         with self._text:
             heading("Findings")
-            shown = (BAND, LIMITS, OVERLOADED)
-            row_list((label, text) for label, text in findings(result) if label not in shown)
+            row_list(page_findings(result))
             if result.practice is not None:
                 heading("What ends first, published rules, events")
-                row_list(chain_rows(result.ends, result.practice, result.events))
+                row_list(chain_findings(result.ends, result.practice, result.events))
             assumption_list(taken, defaults)
 
     def _fill_margins(self, found: Sequence[Margin]) -> None:

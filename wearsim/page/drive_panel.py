@@ -21,16 +21,15 @@ from wearsim.page.chart_view import ChartView, LinkedDrawing
 from wearsim.page.edited_input import EditedInput, edited_title
 from wearsim.page.header import Header
 from wearsim.page.text_elements import assumption_list, heading, row_list, warning_list
+from wearsim.report.drive.drive_drawings import flank_place, layout_sketch, lives_bars
 from wearsim.report.drive.drive_words import (
     band_text,
     first_text,
-    part_rows,
+    part_findings,
     ratings_text,
     taken_for_granted,
     worn_most_text,
 )
-from wearsim.report.drive.layout_sketch import flank_place, layout_sketch
-from wearsim.report.drive.lives_bars import lives_bars
 from wearsim.report.drive.page_tables import wheel_of
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.tooth_chart import worn_out_chart
@@ -138,7 +137,7 @@ class DrivePanel:
             else:
                 ui.label(f"Ratings: {ratings_text(found)}.")
             rows = [("Band", band_text(found)), ("Worn most", worn_most_text(found))]
-            row_list([*part_rows(found), *rows])
+            row_list([*part_findings(found), *rows])
             warning_list(found.doubts)
 
     def _fill_ratings(self, found: DriveLife) -> None:

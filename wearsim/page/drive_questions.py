@@ -11,8 +11,8 @@ from wearsim.drive.drive_start import start_text
 from wearsim.drive.known_drive import KNOWN, Known, read_known
 from wearsim.errors import CaseError, Fault
 from wearsim.page.dialogs import named_dialog
-from wearsim.page.edited_input import in_thread
 from wearsim.page.field_words import choice_words
+from wearsim.page.threads import in_thread
 
 _LOOK = "outlined dense stack-label hide-bottom-space"
 

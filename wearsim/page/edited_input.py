@@ -6,7 +6,7 @@ from typing import TypeVar
 
 from wearsim.input.document import CaseText, retitled
 from wearsim.page.case_file import CaseFile
-from wearsim.page.edited_input import in_thread
+from wearsim.page.threads import in_thread
 from wearsim.page.toml_source import parsed_tables
 
 Found = TypeVar("Found")

@@ -12,7 +12,7 @@ from wearsim.errors import WearsimError
 from wearsim.page.case_file import NEW, CaseFile, example, example_titles, named_beside, new_file, read_file
 from wearsim.page.dialogs import ask_example, ask_export, ask_name, choose
 from wearsim.page.drive_questions import ask_drive
-from wearsim.page.edited_input import in_thread
+from wearsim.page.threads import in_thread
 from wearsim.result import WearResult
 
 _FORMATS = tuple(name for name, wheel in WHEELS.items() if not wheel.solid)

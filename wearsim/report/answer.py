@@ -9,7 +9,7 @@ from wearsim.chain.power_rating import RATED_HOURS
 from wearsim.chain.selection import RatingFinding, rated_for_hours
 from wearsim.contact.stop_limits import LIMITS as STOP_LIMITS
 from wearsim.quantities import DAYS_OF_YEAR, grouped
-from wearsim.report.text_lines import counted_assumptions, numbered_assumptions, row
+from wearsim.report.text_lines import Finding, answer_text, counted_assumptions, numbered_assumptions, row
 from wearsim.result import Life, LimitState, LowerBound, WearResult
 from wearsim.result.ends import PartEnd, before_wear, end_rows, first_hours, wear_only
 from wearsim.result.events import Event, event_rows
@@ -19,7 +19,7 @@ from wearsim.wear.accuracy import LEAST_ORDER, MAX_ORDER, GridStudy
 
 BAND, LIMITS = "Band", "Limits"
 OVERLOADED = "Overloaded:"
-"""Labels of findings that a page shows in its own way."""
+"""Labels of findings that have a place of their own on a page."""
 
 JUMPING = "min_slack_tension_N"
 """Limit of which the margin is a factor: what is needed lies far below it on most drives."""
@@ -124,30 +124,31 @@ def answer(result: WearResult, source: str, explain: bool = False) -> str:
     """Return the answer to one sprocket or gears in words, on request with all that it rests on."""
     found = findings(result)
     if explain:
-        found += [("Band from", result.band), *_explained(result)]
-        found.append(("Assumes", numbered_assumptions(result.assumptions)))
+        found += [Finding("Band from", result.band), *_explained(result)]
+        assumes = numbered_assumptions(result.assumptions)
     else:
         short = {LIMITS: _limits_in_short(result)}
-        found = [(label, short.get(label, text)) for label, text in found if label != REMOVED]
-        found.append(("Assumes", counted_assumptions(result.assumptions)))
-    rows = [
+        found = [one._replace(text=short.get(one.label, one.text)) for one in found if one.label != REMOVED]
+        assumes = counted_assumptions(result.assumptions)
+    return answer_text(
+        result.title,
         *found,
-        ("Warnings", "; ".join(result.warnings) or "none"),
-        ("Next", f"{_compare(result, source)}     (pictures)"),
-    ]
-    return "\n".join([result.title, *(row(label, text) for label, text in rows)])
+        Finding("Assumes", assumes),
+        Finding("Warnings", "; ".join(result.warnings) or "none"),
+        Finding("Next", f"{_compare(result, source)}     (pictures)"),
+    )
 
 
-def _explained(result: WearResult) -> list[tuple[str, str]]:
+def _explained(result: WearResult) -> list[Finding]:
     """Return what ends first, each published rule and what happens when, of a chain."""
     if result.practice is None:
         return []
-    return chain_rows(result.ends, result.practice, result.events)
+    return chain_findings(result.ends, result.practice, result.events)
 
 
-def chain_rows(
+def chain_findings(
     ends: Sequence[PartEnd], practice: SecondOpinions, events: Sequence[Event]
-) -> list[tuple[str, str]]:
+) -> list[Finding]:
     """Return a line for everything that may end a part, for every published rule and for every event."""
     rows = {
         "Ends": [", ".join(cell for cell in row if cell != "-") for row in end_rows(ends)],
@@ -160,21 +161,29 @@ def chain_rows(
             for told, day, part, what in event_rows(events)
         ],
     }
-    return [("" if i else label, text) for label, texts in rows.items() for i, text in enumerate(texts)]
-
-
-def findings(result: WearResult) -> list[tuple[str, str]]:
-    """Return what a run has found, the life first; before it that the drive is overloaded."""
     return [
-        *(((OVERLOADED, overload_text(result)),) if result.overloaded else ()),
-        ("Life", _life(result)),
-        (BAND, _band(result)),
-        *([("Practice", practice_line(result))] if result.practice else []),
-        *_service(result),
-        *((("Governs", governing_text(result)),) if result.fatigue else ()),
+        Finding("" if i else label, text) for label, texts in rows.items() for i, text in enumerate(texts)
+    ]
+
+
+def page_findings(result: WearResult) -> list[Finding]:
+    """Return the findings that a page lists: band, limits and overload have places of their own there."""
+    return [one for one in findings(result) if one.label not in (BAND, LIMITS, OVERLOADED)]
+
+
+def findings(result: WearResult) -> list[Finding]:
+    """Return what a run has found, the life first; before it that the drive is overloaded."""
+    service = service_text(result.inputs, result.life)
+    return [
+        *((Finding(OVERLOADED, overload_text(result)),) if result.overloaded else ()),
+        Finding("Life", _life(result)),
+        Finding(BAND, _band(result)),
+        *((Finding("Practice", practice_line(result)),) if result.practice else ()),
+        *((Finding("In service", service),) if service else ()),
+        *((Finding("Governs", governing_text(result)),) if result.fatigue else ()),
         *_parts(result),
-        ("Worn most", _worst(result)),
-        (REMOVED, _removed(result)),
+        Finding("Worn most", _worst(result)),
+        Finding(REMOVED, _removed(result)),
     ]
 
 
@@ -251,18 +260,18 @@ def _endured(life: Life | LowerBound) -> str:
     return hours(life) if life.hours > 0.0 else "from the start"
 
 
-def _parts(result: WearResult) -> list[tuple[str, str]]:
+def _parts(result: WearResult) -> list[Finding]:
     """Lives of chain and sprocket, and how far every limit is used when the life ends."""
     if len(result.limits) < 2:
         return []
     used = ", ".join(limit_state(state, result.inputs) for state in result.limits)
-    limits = [(LIMITS, f"{_AT_END} {used}")]
+    limits = [Finding(LIMITS, f"{_AT_END} {used}")]
     if "chain" not in result.parts:
         return limits
     lives = ", ".join(f"{name} {hours(result.parts[name])}" for name in ("chain", "sprocket"))
     chains = int(result.history_columns["chain"][-1])
     more = f" with {chains} chains, each replaced at its limit" if chains > 1 else ""
-    return [("Of which", f"{lives}{more}"), *limits]
+    return [Finding("Of which", f"{lives}{more}"), *limits]
 
 
 def _limits_in_short(result: WearResult) -> str:
@@ -303,12 +312,6 @@ def years_and_months(days: float) -> str:
     years, months = divmod(round(12.0 * days / DAYS_OF_YEAR), 12)
     counted = {"year": years, "month": months}
     return " ".join(f"{n} {unit}{'' if n == 1 else 's'}" for unit, n in counted.items() if n)
-
-
-def _service(result: WearResult) -> list[tuple[str, str]]:
-    """Give the life, or what the run covers of it, in other measures."""
-    text = service_text(result.inputs, result.life)
-    return [("In service", text)] if text else []
 
 
 def ending(result: WearResult) -> str:

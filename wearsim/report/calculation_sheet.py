@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.files import new_folder
+from wearsim.report.answer_table import AnswerTable
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -19,9 +20,8 @@ class CalculationSheet:
 
     text: str  # for the screen, at most a hundred characters wide
     content: Mapping[str, Any]  # for `--json`: plain values, never nan
-    # returns pandas.DataFrame by file stem; units in the names of the columns. Only a folder needs
-    # them, and the libraries for them
-    tables: Callable[[], Mapping[str, "pd.DataFrame"]]
+    # by file stem; units in the names of the columns. Only a folder needs them, and the libraries for them
+    tables: Callable[[], Mapping[str, "AnswerTable[Any] | pd.DataFrame"]]
     figures: Callable[[], Mapping[str, "Figure"]]  # returns matplotlib.figure.Figure by file stem
     warnings: tuple[str, ...] = ()  # what the user should look at
     # by file name: what writes a further file to the path that it is given
@@ -35,7 +35,8 @@ class CalculationSheet:
             content = json.dumps(self.content, ensure_ascii=False, allow_nan=False, indent=1)
             (place / "result.json").write_text(content + "\n", encoding="utf-8")
             for name, table in self.tables().items():
-                table.to_csv(place / f"{name}.csv", index=False, lineterminator="\n")
+                frame = table.frame() if isinstance(table, AnswerTable) else table
+                frame.to_csv(place / f"{name}.csv", index=False, lineterminator="\n")
             for name, figure in self.figures().items():
                 save_figure(figure, place, name)
             for name, write in self.files.items():

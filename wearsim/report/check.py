@@ -8,9 +8,10 @@ from wearsim.case.model import Case
 from wearsim.chain.selection import rating_warnings
 from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.drive.drive_case import DriveCase, chain_case
+from wearsim.report.answer_table import table_of
 from wearsim.report.drive.layout import layout_json, layout_text
-from wearsim.report.public_answer import Answer, table_of
-from wearsim.report.rating import notes_text, rating_json, rating_table
+from wearsim.report.public_answer import Answer
+from wearsim.report.rating import notes_text, rating_json, rating_text
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,6 +27,8 @@ class CheckResult(Answer):
         What was checked.
     """
 
+    _tables = ("ratings",)
+
     case: Case | DriveCase
 
     @property
@@ -36,7 +39,7 @@ class CheckResult(Answer):
     @property
     def headline(self) -> str:
         """Whether a rating is not kept."""
-        outside = [one["name"] for one in self.summary().get("rating", ()) if not one["ok"]]
+        outside = [one["name"] for one in self._content().get("rating", ()) if not one["ok"]]
         return f"outside: {', '.join(outside)}" if outside else "ok"
 
     @property
@@ -47,31 +50,14 @@ class CheckResult(Answer):
     @property
     def assumptions(self) -> tuple[str, ...]:
         """What was taken for granted."""
-        return tuple(self.summary()["assumptions"])
+        return tuple(self._content()["assumptions"])
 
     @property
     def ratings(self) -> "pd.DataFrame":
         """What the handbooks allow, a row for each rating; empty where none applies."""
-        return table_of(self.summary().get("rating", ()))
+        return table_of(self._content().get("rating", ()))
 
-    def tables(self) -> "dict[str, pd.DataFrame]":
-        """Return the ratings.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``ratings``.
-        """
-        return {"ratings": self.ratings}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim check --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return check_json(self.case)
 
 
@@ -133,7 +119,7 @@ def check_text(case: Case | DriveCase, head: str) -> str:
         head,
         layout_text(case) if isinstance(case, DriveCase) else "",
         *(f"  assumes  {text}" for text in _assumptions(case)),
-        rating_table(one),
+        rating_text(one),
         notes_text(one),
         *(f"  warning  {text}" for text in _warnings(case)),
     ]

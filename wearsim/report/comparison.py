@@ -1,97 +1,68 @@
-"""Several results side by side: pandas tables and matplotlib figures."""
+"""Several results side by side: a table and matplotlib figures."""
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from wearsim.files import new_folder
 from wearsim.report.answer import governing_text, headline, limit_text
+from wearsim.report.answer_table import AnswerTable, Column, life_columns
 from wearsim.report.figures import comparison_figures, save_figure
-from wearsim.result import Life, WearResult, life_keys
+from wearsim.result import Life, LowerBound, WearResult
 from wearsim.result.lives import hours
 
-if TYPE_CHECKING:
-    import pandas as pd
 
-
-def comparison_table(results: list[WearResult]) -> pd.DataFrame:
+def comparison_table(results: Sequence[WearResult]) -> AnswerTable[WearResult]:
     """Return one row per result."""
-    import pandas as pd  # takes 0.3 s, and a page of one drive has no table
-
     first = results[0].life
-    rows = []
-    for result in results:
-        life = result.life
-        both = isinstance(life, Life) and isinstance(first, Life)
-        rows.append(
-            {
-                "case": result.case,
-                "title": result.title,
-                **life_keys("life_hours", life),
-                "life_reached": isinstance(life, Life),
-                "hours_run": result.hours_run,
-                **life_keys("life_hours_low", result.life_low),
-                **life_keys("life_hours_high", result.life_high),
-                "ratio_to_first": life.hours / first.hours if both else float("nan"),
-                "stop": result.stop,
-                "stop_value": result.stop_value,
-                "governing_life": result.governing if result.fatigue else None,
-                **life_keys("governing_life_hours", result.earliest_life if result.fatigue else None),
-                "initial_peak_pressure_MPa": result.initial_peak_pressure,
-                "final_peak_pressure_MPa": result.final_peak_pressure,
-                "removed_area_mm2": float(result.history_columns["removed_area_mm2"][-1]),
-                "max_depth_mm": result.max_depth,
-                "max_depth_arc_length_mm": result.max_depth_arc_length,
-            }
-        )
-    table = pd.DataFrame(rows)
-    # A column of None alone is one of numbers too.
-    numbers = [name for name in map(str, table.columns) if "life_hours" in name]
-    return table.astype(dict.fromkeys(numbers, float))
+    governs = "governs" if any(result.fatigue for result in results) else None
+    return AnswerTable(
+        [
+            Column("case", lambda one: one.case),
+            Column("title", lambda one: one.title, "case"),
+            Column("", headline, "life"),
+            *life_columns("life_hours", lambda one: one.life),
+            Column("life_reached", lambda one: isinstance(one.life, Life)),
+            Column("hours_run", lambda one: one.hours_run),
+            *life_columns("life_hours_low", lambda one: one.life_low),
+            *life_columns("life_hours_high", lambda one: one.life_high),
+            Column("", lambda one: limit_text(one.stop, one.stop_value), "limit"),
+            Column("", lambda one: f"{hours(one.life_high)} / {hours(one.life_low)}", "at low / high wear"),
+            Column("ratio_to_first", lambda one: _ratio(one.life, first), "ratio to first", "{:.3g}"),
+            Column("stop", lambda one: one.stop),
+            Column("stop_value", lambda one: one.stop_value),
+            Column("governing_life", lambda one: one.governing if one.fatigue else None),
+            *life_columns("governing_life_hours", lambda one: one.earliest_life if one.fatigue else None),
+            Column("initial_peak_pressure_MPa", lambda one: one.initial_peak_pressure),
+            Column("final_peak_pressure_MPa", lambda one: one.final_peak_pressure),
+            Column("", _pressures, "peak pressure, MPa"),
+            Column(
+                "removed_area_mm2",
+                lambda one: float(one.history_columns["removed_area_mm2"][-1]),
+                "removed area, mm2",
+                "{:.3g}",
+            ),
+            Column("max_depth_mm", lambda one: one.max_depth),
+            Column("max_depth_arc_length_mm", lambda one: one.max_depth_arc_length),
+            Column("", _deepest, "deepest, mm"),
+            Column("", lambda one: governing_text(one) if one.fatigue else "-", governs),
+        ],
+        results,
+    )
 
 
-def comparison_cells(results: list[WearResult]) -> tuple[list[str], list[list[str]]]:
-    """Return the comparison in words, bounds with their sign."""
-    head = [
-        "case",
-        "life",
-        "limit",
-        "at low / high wear",
-        "ratio to first",
-        "peak pressure, MPa",
-        "removed area, mm2",
-        "deepest, mm",
-    ]
-    rows = []
-    for result, row in zip(results, comparison_table(results).to_dict("records"), strict=True):
-        ratio = row["ratio_to_first"]
-        start = "right tip" if result.inputs["mechanism"]["kind"] == "wrap" else "root"
-        cells = [
-            result.title,
-            headline(result),
-            limit_text(result.stop, result.stop_value),
-            f"{hours(result.life_high)} / {hours(result.life_low)}",
-            f"{ratio:.3g}" if ratio == ratio else "-",
-            f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f}",
-            f"{row['removed_area_mm2']:.3g}",
-            f"{result.max_depth:.3g} at {result.max_depth_arc_length:.1f} from the {start}",
-        ]
-        rows.append(cells)
-    if any(result.fatigue for result in results):
-        head.append("governs")
-        for result, cells in zip(results, rows, strict=True):
-            cells.append(governing_text(result) if result.fatigue else "-")
-    return head, rows
+def _ratio(life: Life | LowerBound, first: Life | LowerBound) -> float | None:
+    both = isinstance(life, Life) and isinstance(first, Life)
+    return life.hours / first.hours if both else None
 
 
-def comparison_text(results: list[WearResult]) -> str:
-    """Return the comparison as a Markdown table, bounds with their sign."""
-    head, rows = comparison_cells(results)
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |" for cells in rows]
-    return "\n".join(lines)
+def _pressures(result: WearResult) -> str:
+    return f"{result.initial_peak_pressure:.0f} -> {result.final_peak_pressure:.0f}"
+
+
+def _deepest(result: WearResult) -> str:
+    start = "right tip" if result.inputs["mechanism"]["kind"] == "wrap" else "root"
+    return f"{result.max_depth:.3g} at {result.max_depth_arc_length:.1f} from the {start}"
 
 
 def differing_limits(results: list[WearResult]) -> str:
@@ -119,15 +90,14 @@ def distinct(results: list[WearResult], names: list[str]) -> list[WearResult]:
     ]
 
 
-def save_comparison(results: list[WearResult], folder: Path, force: bool) -> str:
+def save_comparison(results: list[WearResult], folder: Path, force: bool) -> None:
     """Write tables and figures into a folder, all of it or nothing."""
-    text = comparison_text(results)
+    table = comparison_table(results)
     with new_folder(folder, force) as place:
-        comparison_table(results).to_csv(place / "summary.csv", index=False)
-        (place / "summary.md").write_text(_page(results, text), encoding="utf-8")
+        table.write(place / "summary.csv")
+        (place / "summary.md").write_text(_page(results, table.markdown()), encoding="utf-8")
         for name, figure in comparison_figures(results).items():
             save_figure(figure, place, name)
-    return text
 
 
 def _page(results: list[WearResult], table: str) -> str:

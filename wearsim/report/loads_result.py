@@ -9,9 +9,10 @@ from wearsim.drive.drive_case import DriveCase, single_cases
 from wearsim.errors import Range, check_ranges
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads, tooth_loads
 from wearsim.quantities import grouped
+from wearsim.report.answer_table import table_of
 from wearsim.report.drive.layout import loads_json_of, loads_text
 from wearsim.report.loads_table import loads_json
-from wearsim.report.public_answer import Answer, table_of
+from wearsim.report.public_answer import Answer
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -29,6 +30,8 @@ class LoadsResult(Answer):
     by_sprocket : dict
         Loads of every sprocket by its name; of the only one by ``sprocket``.
     """
+
+    _tables = ("teeth", "spans", "shafts")
 
     case: Case | DriveCase
     by_sprocket: dict[str, ToothLoads]
@@ -63,31 +66,14 @@ class LoadsResult(Answer):
     @property
     def spans(self) -> "pd.DataFrame":
         """Length and tension of every span of a whole drive; empty of one sprocket."""
-        return table_of(self.summary().get("layout", {}).get("spans", ()))
+        return table_of(self._content().get("layout", {}).get("spans", ()))
 
     @property
     def shafts(self) -> "pd.DataFrame":
         """Load, torque and place of every shaft of a whole drive; empty of one sprocket."""
-        return table_of(self.summary().get("layout", {}).get("sprockets", ()))
+        return table_of(self._content().get("layout", {}).get("sprockets", ()))
 
-    def tables(self) -> "dict[str, pd.DataFrame]":
-        """Return teeth, spans and shafts.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``teeth``, ``spans`` and ``shafts``.
-        """
-        return {"teeth": self.teeth, "spans": self.spans, "shafts": self.shafts}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim loads --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return loads_json_of(self.case, self.by_sprocket)
 
     def plot(self) -> "Figure":

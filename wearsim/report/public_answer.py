@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from wearsim.errors import StudyError
 from wearsim.files import new_folder
@@ -43,7 +43,13 @@ class Answer(ABC):
         """The answer in a few words."""
         return ""
 
+    _tables: ClassVar[tuple[str, ...]]
+    """Names of the attributes that are tables."""
+
     @abstractmethod
+    def _content(self) -> dict[str, Any]:
+        """Return the answer as plain values."""
+
     def summary(self) -> dict[str, Any]:
         """Return the answer as the command prints it with ``--json``.
 
@@ -52,21 +58,22 @@ class Answer(ABC):
         dict
             Plain numbers, strings, lists and None; never nan.
         """
+        return self._content()
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What is doubtful about it."""
-        return tuple(self.summary().get("warnings", ()))
+        return tuple(self._content().get("warnings", ()))
 
-    @abstractmethod
-    def tables(self) -> "Mapping[str, pd.DataFrame]":
+    def tables(self) -> "dict[str, pd.DataFrame]":
         """Return all tables of the answer.
 
         Returns
         -------
-        mapping of pandas.DataFrame
+        dict of pandas.DataFrame
             By their names, which are those of its attributes.
         """
+        return {name: getattr(self, name) for name in self._tables}
 
     def __str__(self) -> str:
         return self.text
@@ -127,9 +134,18 @@ class DrawnAnswer(Answer):
             raise StudyError(f"plot: must name one of the pictures: {names} (got {name!r})")
         return shown(drawn[chosen])
 
-    @abstractmethod
+    def _files(self) -> Mapping[str, str]:
+        """Return what its folder holds beside the pictures."""
+        return {}
+
     def _write(self, place: Path) -> None:
         """Write tables, words and pictures into an empty folder."""
+        from wearsim.report.figures import save_figure
+
+        for name, text in self._files().items():
+            (place / name).write_text(text, encoding="utf-8", newline="\n")
+        for name, figure in self.pictures().items():
+            save_figure(figure, place, name)
 
     def save(self, folder: str | PathLike[str], force: bool = False) -> None:
         """Write the answer into a folder as the command does with ``--out``, all of it or nothing.
@@ -158,13 +174,3 @@ def _html_table(table: "pd.DataFrame") -> str:
         if column.notna().any() and 0 < max(len(str(value)) for value in column.head(_MAX_ROWS)) <= _LONGEST
     ]
     return table[shown].to_html(max_rows=_MAX_ROWS, index=False, float_format="{:.6g}".format, na_rep="-")
-
-
-def table_of(rows: Any) -> "pd.DataFrame":
-    """Return rows of plain values as a table, None as nan in columns of numbers."""
-    import pandas as pd
-
-    table = pd.DataFrame(list(rows))
-    # pandas takes a column of None alone for one of objects.
-    empty = [name for name in table.columns if table[name].isna().all()]
-    return table.astype(dict.fromkeys(empty, float))

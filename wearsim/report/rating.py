@@ -7,6 +7,7 @@ from typing import Any
 from wearsim.case.model import Case
 from wearsim.chain.selection import RatingFinding
 from wearsim.quantities import grouped
+from wearsim.report.answer_table import AnswerTable, Column
 
 _WIDTH = 100
 
@@ -14,70 +15,92 @@ _WIDTH = 100
 def rating_json(case: Case) -> dict[str, Any]:
     """Return the ratings of a case as ``wearsim check --json`` prints them."""
     ratings = case.drive.ratings(case)
-    if not ratings:
-        return {}
-    keys = ("name", "value", "limit", "unit", "ok", "source", "note", "load")
-    return {
-        "rating": [{key: getattr(finding, key) for key in keys} for finding in ratings],
-        "notes": case.drive.notes(case),
-    }
+    return {"rating": ratings_table(ratings).records(), "notes": case.drive.notes(case)} if ratings else {}
 
 
-RATING_HEAD = ["rating", "value", "allowed", "margin", "used", "whose rule"]
-"""Heads of the columns of `rating_cells`."""
+def ratings_table(ratings: Sequence[RatingFinding]) -> AnswerTable[RatingFinding]:
+    """Return a row for each rating; on the screen those outside are marked."""
+    return AnswerTable(
+        [
+            Column("name", lambda one: one.name, "rating"),
+            Column("value", lambda one: one.value),
+            Column("", lambda one: _in_unit(one, one.value), "value"),
+            Column("limit", lambda one: one.limit),
+            Column("", lambda one: f"{_side(one)} {_in_unit(one, one.limit)}", "allowed"),
+            Column("unit", lambda one: one.unit),
+            Column("ok", lambda one: one.ok),
+            Column("", lambda one: _in_unit(one, one.margin), "margin"),
+            Column("", lambda one: f"{grouped(100.0 * one.used)} %{'' if one.ok else ', outside'}", "used"),
+            Column("", rule, "whose rule"),
+            Column("source", lambda one: one.source),
+            Column("note", lambda one: one.note),
+            Column("load", lambda one: one.load),
+        ],
+        ratings,
+    )
 
 
-def rating_cells(ratings: Sequence[RatingFinding]) -> list[list[str]]:
-    """Return the ratings of a result in words, those outside marked."""
-    rows = []
-    for finding in ratings:
-        unit = f" {finding.unit}" if finding.unit else ""
-        side = "at least" if finding.at_least else "at most"
-        state = "" if finding.ok else ", outside"
-        rows.append(
-            [
-                finding.name,
-                f"{grouped(finding.value)}{unit}",
-                f"{side} {grouped(finding.limit)}{unit}",
-                f"{grouped(finding.margin)}{unit}",
-                f"{grouped(100.0 * finding.used)} %{state}",
-                rule(finding),
-            ]
-        )
-    return rows
+def _in_unit(finding: RatingFinding, value: float) -> str:
+    """Return a value in the unit of a rating."""
+    return f"{grouped(value)} {finding.unit}".rstrip()
+
+
+def _side(finding: RatingFinding) -> str:
+    return "at least" if finding.at_least else "at most"
 
 
 def rule(finding: RatingFinding) -> str:
     """Return whose rule a rating is, which load it is about, and why it is only indicative."""
-    return "; ".join(text for text in (finding.source, finding.load, finding.note) if text)
+    return "; ".join(text for text in (_whose(finding), finding.note) if text)
 
 
-def rating_table(case: Case) -> str:
+def _whose(finding: RatingFinding, mark: str = "") -> str:
+    return "; ".join(filter(None, (f"{finding.source}{mark}", finding.load)))
+
+
+def sheet_ratings(ratings: Sequence[RatingFinding]) -> tuple[AnswerTable[RatingFinding], list[str]]:
+    """Return the ratings as the sheet of a drive has them, and the notes that their sources point to."""
+    notes = _notes(ratings)
+    columns: list[Column[RatingFinding]] = [
+        Column("", lambda one: one.name, "rating", side="<"),
+        Column("", lambda one: _in_unit(one, one.value), "value"),
+        Column("", lambda one: f"{'≥' if one.at_least else '≤'} {_in_unit(one, one.limit)}", "allowed"),
+        Column("", lambda one: _in_unit(one, one.margin), "margin"),
+        Column("", lambda one: f"{grouped(100.0 * one.used, 3)} %", "used"),
+        Column("", lambda one: "ok" if one.ok else "outside", "verdict", side="<"),
+        Column("", lambda one: _whose(one) + _mark(one, notes), "source", side="<"),
+    ]
+    return AnswerTable(columns, ratings), notes
+
+
+def rating_text(case: Case) -> str:
     """Return the ratings of a case as ``wearsim check`` prints them."""
     found = case.drive.ratings(case)
     if not found:
         return ""
-    notes = list(dict.fromkeys(finding.note for finding in found if finding.note))
-    lines = [f"  rating   {'':<23} {'value':>7}    {'limit':>7}  unit  state    whose rule"]
-    for finding in found:
-        sign = ">=" if finding.at_least else "<="
-        state = "ok" if finding.ok else "OUTSIDE"
-        lead = (
-            f"  rating   {finding.name:<23} {grouped(finding.value):>7} {sign} "
-            f"{grouped(finding.limit):>7}  {finding.unit:<5} {state:<8} "
-        )
-        mark = f" [{notes.index(finding.note) + 1}]" if finding.note else ""
-        of = f"; {finding.load}" if finding.load else ""
-        lines.append(_folded(f"{finding.source}{mark}{of}", lead, " " * len(lead)))
-    return "\n".join(
-        [
-            *lines,
-            *(
-                _folded(note, f"           [{number}] ", " " * 15)
-                for number, note in enumerate(notes, start=1)
-            ),
-        ]
-    )
+    notes = _notes(found)
+    columns: list[Column[RatingFinding]] = [
+        Column("", lambda one: one.name, "", side="<24"),
+        Column("", lambda one: one.value, "value", grouped, ">7"),
+        Column("", lambda one: ">=" if one.at_least else "<=", "", side="^4"),
+        Column("", lambda one: one.limit, "limit", grouped, ">7"),
+        Column("", lambda one: f"  {one.unit:<5} ", "  unit", side="<8"),
+        Column("", lambda one: "ok" if one.ok else "OUTSIDE", "state", side="<9"),
+        Column("", lambda one: _whose(one, _mark(one, notes)), "whose rule", side="<"),
+    ]
+    lines = AnswerTable(columns, found).lines("  rating   ")
+    rules = " " * lines[0].index("whose rule")
+    told = [_folded(note, f"           [{number}] ", " " * 15) for number, note in enumerate(notes, start=1)]
+    return "\n".join([*(_folded(line, "", rules) for line in lines), *told])
+
+
+def _notes(ratings: Sequence[RatingFinding]) -> list[str]:
+    return list(dict.fromkeys(finding.note for finding in ratings if finding.note))
+
+
+def _mark(finding: RatingFinding, notes: Sequence[str]) -> str:
+    """Return what points to the note of a rating."""
+    return f" [{notes.index(finding.note) + 1}]" if finding.note else ""
 
 
 def notes_text(case: Case) -> str:

@@ -1,10 +1,9 @@
-"""What every study leaves in its folder and prints: tables, pictures, plain values."""
+"""What every study leaves in its folder: tables and pictures."""
 
-import math
 import textwrap
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from wearsim.errors import OutputError
 from wearsim.files import mark, write_file, written
@@ -43,14 +42,3 @@ def save_figures(folder: Path, title: str, figures: "Mapping[str, Figure]") -> N
         f"{name}.{kind}": picture_bytes(figure, kind) for name, figure in figures.items() for kind in _KINDS
     }
     save_files(folder, pictures)
-
-
-def plain(value: Any) -> Any:
-    """Return a value as JSON has it.
-
-    Examples
-    --------
-    >>> plain(math.nan), plain(2.5)
-    (None, 2.5)
-    """
-    return None if isinstance(value, float) and not math.isfinite(value) else value

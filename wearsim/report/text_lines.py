@@ -2,7 +2,8 @@
 
 import re
 import textwrap
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from typing import NamedTuple
 
 from wearsim.quantities import kind_of_text
 
@@ -13,6 +14,38 @@ _GROUP = re.compile(r"(?<=\d) (?=\d{3}\b)")
 """What sets thousands apart."""
 
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
+
+
+class Finding(NamedTuple):
+    """What an answer says under a label: on the screen, on pages, in a workbook and in a notebook."""
+
+    label: str
+    text: str
+
+    def __str__(self) -> str:
+        return row(self.label, self.text)
+
+
+def answer_text(*parts: object) -> str:
+    """Return what an answer prints: its title, its findings, and tables and lines as they are."""
+    return "\n".join(map(str, parts))
+
+
+def fenced(text: str) -> str:
+    """Return lines of text as a page of Markdown that shows them as they are."""
+    return f"```\n{text}\n```\n"
+
+
+def closing_lists(assumptions: Sequence[str], warnings: Sequence[str]) -> list[str]:
+    """Return what stands last in a long answer, an assumption and a warning on each line."""
+    numbered_lines = (f"  {number}. {text}" for number, text in enumerate(assumptions, start=1))
+    return ["", "assumptions:", *numbered_lines, *(f"warning: {text}" for text in warnings)]
+
+
+def closing(assumptions: Sequence[str], warnings: Sequence[str]) -> Iterator[Finding]:
+    """Give what stands last in an answer: what it takes for granted, and what is doubtful about it."""
+    yield Finding("Assumes", numbered_assumptions(assumptions))
+    yield Finding("Warnings", "; ".join(warnings) or "none")
 
 
 def row(label: str, text: str, most_lines: int | None = None) -> str:
@@ -61,26 +94,7 @@ def listed(names: Sequence[str]) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-def table_lines(rows: Iterable[Sequence[str]], words: int = 0) -> list[str]:
-    """Return rows of cells in columns as wide as they need: some of words, then those of numbers.
-
-    Examples
-    --------
-    >>> table_lines([("part", "life"), ("chain", "9 h"), ("roll", "1 803 h")], words=1)
-    ['part      life', 'chain      9 h', 'roll   1 803 h']
-    """
-    lines = list(rows)
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    return [
-        "  ".join(
-            cell.ljust(width) if place < words else cell.rjust(width)
-            for place, (cell, width) in enumerate(zip(line, widths, strict=True))
-        )
-        for line in lines
-    ]
-
-
-def numbered_assumptions(assumptions: tuple[str, ...]) -> str:
+def numbered_assumptions(assumptions: Sequence[str]) -> str:
     """Return assumptions with their numbers; the defaults taken share the last one.
 
     Examples
@@ -99,7 +113,7 @@ def numbered(stated: Sequence[str], defaults: Sequence[str]) -> str:
     return "; ".join(f"{i} {text}" for i, text in enumerate(shown, start=1))
 
 
-def counted_assumptions(assumptions: tuple[str, ...]) -> str:
+def counted_assumptions(assumptions: Sequence[str]) -> str:
     """Return how many assumptions and defaults there are.
 
     Examples
@@ -119,7 +133,7 @@ def _counted(texts: Collection[str], name: str) -> str:
     return f"{len(texts)} {name}" if len(texts) == 1 else f"{len(texts)} {name}s"
 
 
-def stated_and_defaults(assumptions: tuple[str, ...]) -> tuple[list[str], list[str]]:
+def stated_and_defaults(assumptions: Sequence[str]) -> tuple[list[str], list[str]]:
     """Return what a result takes for granted, and the defaults it takes.
 
     Examples

@@ -22,8 +22,9 @@ from wearsim.handbook.convex_concave.model import (
     RackArc,
     ZoneContact,
 )
+from wearsim.report.answer_table import plain
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 _POINTS = 101
 
@@ -76,11 +77,6 @@ def _write_solid(layout: PairLayout, body: MeasuredGear, path: Path) -> None:
     write_stl(prism(body.outline.polygon(OUTLINE_TOLERANCE), layout.face_width), path)
 
 
-def _known(value: float) -> float | None:
-    """JSON has no nan."""
-    return value if math.isfinite(value) else None
-
-
 def _gear(body: MeasuredGear) -> dict[str, Any]:
     gear = body.gear
     return {
@@ -103,11 +99,11 @@ def _contact(one: ZoneContact) -> dict[str, Any]:
         "place": one.place,
         "pressure_angle_deg": math.degrees(alpha),
         "path_coordinate_mm": float(zone.pinion.path_coordinate(alpha)) + 0.0,
-        "pinion_flank_radius_mm": _known(float(zone.pinion.curvature_radius(alpha))),
-        "wheel_flank_radius_mm": _known(float(zone.wheel.curvature_radius(alpha))),
+        "pinion_flank_radius_mm": plain(float(zone.pinion.curvature_radius(alpha))),
+        "wheel_flank_radius_mm": plain(float(zone.wheel.curvature_radius(alpha))),
         "rack_flank_radius_mm": float(zone.pinion.rack_radius(alpha)),
         "reduced_radius_mm": float(zone.reduced_radius(alpha)),
-        "involute_reduced_radius_mm": _known(one.involute_radius),
+        "involute_reduced_radius_mm": plain(one.involute_radius),
     }
 
 
@@ -117,7 +113,7 @@ def _condition(one: SignCondition) -> dict[str, Any]:
         "curvature_sign": one.radius,
         "holds": one.holds,
         "arc_radius_mm": one.flank.arc_radius,
-        "arc_limit_mm": _known(one.arc_limit),
+        "arc_limit_mm": plain(one.arc_limit),
     }
 
 
@@ -141,7 +137,7 @@ def _rollers(body: MeasuredGear) -> list[dict[str, Any]]:
             "pressure_angle_deg": math.degrees(one.roller.alpha),
             "centre_radius_mm": one.roller.centre_radius,
             "over_pins_mm": one.roller.over,
-            "involute_over_pins_mm": _known(one.involute_over),
+            "involute_over_pins_mm": plain(one.involute_over),
         }
         for one in body.measured
     ]
@@ -205,23 +201,21 @@ def _text(title: str, layout: PairLayout) -> str:
         f"{pair.contact_ratio:.4f} ({pair.approach_ratio:.4f} before the pitch point, "
         f"{pair.recess_ratio:.4f} after it); involute {layout.involute.contact_ratio:.4f}"
     )
-    return "\n".join(
-        [
-            title,
-            "",
-            *_gear_lines(layout),
-            "",
-            *_contact_lines(layout),
-            "",
-            row("Contact", f"ratio {ratio}"),
-            row("Reduced", _reduced(layout)),
-            row("Signs", _signs(pair.sign_conditions)),
-            row("Rack", _rack_text(layout)),
-            "",
-            *_roller_lines(layout),
-            "",
-            row("Assumes", numbered_assumptions(_ASSUMPTIONS)),
-        ]
+    return answer_text(
+        title,
+        "",
+        *_gear_lines(layout),
+        "",
+        *_contact_lines(layout),
+        "",
+        Finding("Contact", f"ratio {ratio}"),
+        Finding("Reduced", _reduced(layout)),
+        Finding("Signs", _signs(pair.sign_conditions)),
+        Finding("Rack", _rack_text(layout)),
+        "",
+        *_roller_lines(layout),
+        "",
+        Finding("Assumes", numbered_assumptions(_ASSUMPTIONS)),
     )
 
 

@@ -8,8 +8,9 @@ from wearsim.handbook.face_load.face_slices import equivalent_misalignment
 from wearsim.handbook.face_load.face_wear import FaceRunningIn, FaceState
 from wearsim.handbook.face_load.model import FaceLoad
 from wearsim.quantities import grouped
+from wearsim.report.answer_table import plain
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -40,12 +41,11 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> Cal
         for name, run in _runs(found)
         for hours, factor in zip(run.hours.tolist(), run.factors.tolist(), strict=True)
     ]
-    lasting = found.varying_hours
     content = {
         "title": title,
         "mean_load_per_width_N_per_mm": found.mesh.mean_load,
         "fixed_running_in_hours": found.fixed_hours,
-        "varying_running_in_hours": None if math.isinf(lasting) else lasting,
+        "varying_running_in_hours": plain(found.varying_hours),
         "states": states,
         "history": history,
         "assumptions": list(assumptions),
@@ -125,11 +125,10 @@ def _text(title: str, found: FaceLoad, states: Sequence[dict[str, Any]], assumpt
         f"{grouped(mesh.mean_load)} N/mm on {grouped(mesh.face_width)} mm; stiffness "
         f"{mesh.stiffness / 1e3:g} N/(mm um)"
     )
-    lines = [title, row("Load", load), row("Runs in", _running_in(found)), ""]
-    lines.append(
+    lines = [
         f"  {'pinion':15s}{'state':10s}{'hours':>9s}{'K_Hbeta':>10s}{'as F_beta, um':>15s}"
         f"{'loaded':>9s}{'worn off, mm':>14s}"
-    )
+    ]
     lines += [
         f"  {_NAMES[one['pinion_mounting']]:15s}{_STATES[one['face_state']]:10s}"
         f"{grouped(one['time_hours']):>9s}{one['face_load_factor']:10.3f}"
@@ -142,7 +141,9 @@ def _text(title: str, found: FaceLoad, states: Sequence[dict[str, Any]], assumpt
         "factor; loaded: the least part of the face that carries load; worn off: the greatest depth, both "
         "flanks together"
     )
-    return "\n".join([*lines, "", row("Columns", notes), row("Assumes", numbered_assumptions(assumptions))])
+    head = (title, Finding("Load", load), Finding("Runs in", _running_in(found)))
+    closing = (Finding("Columns", notes), Finding("Assumes", numbered_assumptions(assumptions)))
+    return answer_text(*head, "", *lines, "", *closing)
 
 
 def _running_in(found: FaceLoad) -> str:

@@ -1,7 +1,7 @@
 """Contact stress at the pitch point against published ones: rows, tables and warnings."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,10 +17,11 @@ from wearsim.contact.line_stress import (
 )
 from wearsim.handbook.hertz_check.figure import hertz_check_figure
 from wearsim.handbook.hertz_check.hertz_fem import FemContact
-from wearsim.handbook.hertz_check.model import ROUNDING, Comparison, HertzCheck
+from wearsim.handbook.hertz_check.model import ROUNDING, Comparison, ComparisonColumn, HertzCheck
 from wearsim.handbook.hertz_check.pitch_point_contact import InputChange, PitchPointContact, share_for
 from wearsim.handbook.hertz_check.published import AxisFile
 from wearsim.handbook.hertz_check.text import ASSUMPTIONS, hertz_check_text
+from wearsim.report.answer_table import AnswerTable, Column, plain
 from wearsim.report.calculation_sheet import CalculationSheet
 
 _WIDE = 0.05
@@ -35,32 +36,31 @@ def hertz_check_sheet(
 ) -> CalculationSheet:
     """Return what ``wearsim hertz-check`` shows."""
     contact = check.contact
-    rows = {
-        "combinations": [_combination(one, check) for one in check.literal],
-        "changes": [_change(one) for one in check.changes],
-        "comparison": [] if check.comparison is None else _comparison(check.comparison),
+    shown: dict[str, AnswerTable[Any]] = {
+        "combinations": _combinations(check),
+        "changes": _changes(check),
+        "comparison": _comparison(check.comparison),
         "meshes": _meshes(contact, meshes),
     }
-    rows = {name: found for name, found in rows.items() if found}
+    shown = {name: table for name, table in shown.items() if table.rows}
     head = _contact(check)
     if axis is not None:
         head["axis_file"] = _axis_file(axis, head["depth_von_mises_MPa"])
     warnings = [
         *_input_warnings(check),
         *_verdicts(check),
-        *_mesh_warnings(check.contact, rows.get("meshes", [])),
+        *_mesh_warnings(contact, shown["meshes"].records() if meshes else []),
     ]
     references = [] if check.comparison is None else list(check.comparison.references)
-    tables = {name: pd.DataFrame(found) for name, found in rows.items()}
-    tables["axis_stresses"] = _axis_stresses(contact)
+    tables: dict[str, AnswerTable[Any] | pd.DataFrame] = {**shown, "axis_stresses": _axis_stresses(contact)}
     if meshes:
         tables |= _fields(meshes[-1])
     return CalculationSheet(
-        text=hertz_check_text(title, check, head, rows),
+        text=hertz_check_text(title, check, head, shown),
         content={
             "title": title,
             "contact": head,
-            **rows,
+            **{name: table.records() for name, table in shown.items()},
             **({"difference_references": references} if check.comparison else {}),
             "assumptions": list(ASSUMPTIONS),
             "warnings": warnings,
@@ -69,10 +69,6 @@ def hertz_check_sheet(
         figures=lambda: {"hertz_check": hertz_check_figure(title, check, meshes, axis)},
         warnings=tuple(warnings),
     )
-
-
-def _known(value: float) -> float | None:
-    return None if math.isnan(value) else value
 
 
 def _contact(check: HertzCheck) -> dict[str, Any]:
@@ -96,7 +92,7 @@ def _contact(check: HertzCheck) -> dict[str, Any]:
         "depth_of_von_mises_mm": half_width * mises.depth,
         "greatest_shear_MPa": pressure * shear.stress,
         "depth_of_shear_mm": half_width * shear.depth,
-        "contact_ratio": _known(check.contact_ratio),
+        "contact_ratio": plain(check.contact_ratio),
     }
 
 
@@ -110,77 +106,118 @@ def _axis_file(axis: AxisFile, theory: float) -> dict[str, float]:
     }
 
 
-def _combination(one: PitchPointContact, check: HertzCheck) -> dict[str, Any]:
-    row: dict[str, Any] = {
-        "torque_N_m": 1e-3 * one.torque,
-        "gear_ratio": one.gear_ratio,
-        "face_width_mm": one.face_width,
-        "normal_force_N": one.normal_force,
-        "load_per_width_N_per_mm": one.load_per_width,
-        "reduced_radius_mm": one.reduced_radius,
-        "contact_stress_MPa": one.printed_stress,
-        "peak_pressure_MPa": one.peak_pressure,
-    }
-    if not math.isnan(check.contact_ratio):
-        row["shared_contact_stress_MPa"] = one.printed_stress / math.sqrt(check.contact_ratio)
-    if not math.isnan(check.target):
-        row["load_share"] = share_for(one, check.target)
-        row["least_load_share"] = share_for(one, check.target - ROUNDING)
-        row["greatest_load_share"] = share_for(one, check.target + ROUNDING)
-    return row
-
-
-def _change(one: InputChange) -> dict[str, Any]:
-    low, high = sorted(one.ends)
-    return {
-        "key": one.key,
-        "given_value": one.present,
-        "needed_value": _known(one.needed),
-        "least_needed_value": _known(low),
-        "greatest_needed_value": _known(high),
-    }
-
-
-def _comparison(comparison: Comparison) -> list[dict[str, Any]]:
-    return [
-        {
-            "compared_stress": name,
-            "hertz_MPa": column.hertz,
-            "finite_elements_MPa": _known(column.finite_elements),
-            "printed_difference_percent": _known(column.printed_percent),
-            **{
-                f"difference_of_{reference}_percent": _known(value)
-                for reference, value in column.differences.items()
-            },
-            "lost_stress_MPa": list(column.candidates),
-            "computed_MPa": column.computed,
-            "computed_difference_percent": _known(column.computed_difference),
-        }
-        for name, column in comparison.columns.items()
+def _combinations(check: HertzCheck) -> AnswerTable[PitchPointContact]:
+    """Return a row for each combination of the inputs."""
+    columns: list[Column[PitchPointContact]] = [
+        Column("torque_N_m", lambda one: 1e-3 * one.torque, "T1, N m", "{:g}", ">11"),
+        Column("gear_ratio", lambda one: one.gear_ratio, "u", "{:g}", ">7"),
+        Column("face_width_mm", lambda one: one.face_width, "b, mm", "{:g}", ">8"),
+        Column("normal_force_N", lambda one: one.normal_force, "F_n, N", "{:.3f}", ">13"),
+        Column("load_per_width_N_per_mm", lambda one: one.load_per_width, "q, N/mm", "{:.5f}", ">12"),
+        Column("reduced_radius_mm", lambda one: one.reduced_radius, "rho, mm", "{:.6f}", ">11"),
+        Column("contact_stress_MPa", lambda one: one.printed_stress, "0.418", "{:.3f}", ">9"),
+        Column("peak_pressure_MPa", lambda one: one.peak_pressure, "exact", "{:.3f}", ">9"),
     ]
+    if not math.isnan(check.contact_ratio):
+        shared = math.sqrt(check.contact_ratio)
+        columns.append(
+            Column(
+                "shared_contact_stress_MPa", lambda one: one.printed_stress / shared, "shared", "{:.3f}", ">9"
+            )
+        )
+    if not math.isnan(check.target):
+        low, high = check.target - ROUNDING, check.target + ROUNDING
+        columns += [
+            Column("load_share", lambda one: share_for(one, check.target), "load x", "{:.5f}", ">9"),
+            Column("least_load_share", lambda one: share_for(one, low)),
+            Column("greatest_load_share", lambda one: share_for(one, high)),
+        ]
+    return AnswerTable(columns, check.literal)
 
 
-def _meshes(contact: PitchPointContact, meshes: Sequence[FemContact]) -> list[dict[str, Any]]:
+def _changes(check: HertzCheck) -> AnswerTable[InputChange]:
+    """Return what each key alone must be."""
+    low, high = check.target - ROUNDING, check.target + ROUNDING
+    return AnswerTable(
+        [
+            Column("key", lambda one: one.key, "key", side="<28"),
+            Column("given_value", lambda one: one.present, "given", "{:g}", ">12"),
+            Column("needed_value", lambda one: one.needed, "needed", "{:.6g}", ">12", "none"),
+            Column("least_needed_value", lambda one: sorted(one.ends)[0]),
+            Column("greatest_needed_value", lambda one: sorted(one.ends)[1]),
+            Column("", _span, f"    range for {low:g}-{high:g} MPa", side="<"),
+        ],
+        check.changes,
+    )
+
+
+def _span(one: InputChange) -> str:
+    ends = ("none" if math.isnan(end) else f"{end:.6g}" for end in sorted(one.ends))
+    return "" if math.isnan(one.needed) else f"    {' to '.join(ends)}"
+
+
+def _comparison(comparison: Comparison | None) -> AnswerTable[tuple[str, ComparisonColumn]]:
+    """Return a row for each stress that was published."""
+
+    def relative(reference: str, head: str, width: int) -> Column[tuple[str, ComparisonColumn]]:
+        key = f"difference_of_{reference}_percent"
+        return Column(key, lambda one: one[1].differences[reference], head, "{:.2f}", f">{width}")
+
+    return AnswerTable(
+        [
+            Column("compared_stress", lambda one: one[0], "stress, MPa", side="<12"),
+            Column("hertz_MPa", lambda one: one[1].hertz, "Hertz", "{:.2f}", ">10"),
+            Column("finite_elements_MPa", lambda one: one[1].finite_elements, "FE", "{:g}", ">8"),
+            Column(
+                "printed_difference_percent", lambda one: one[1].printed_percent, "printed, %", "{:g}", ">12"
+            ),
+            relative("larger", "of larger", 11),
+            relative("hertz", "of Hertz", 10),
+            relative("finite_elements", "of FE", 9),
+            Column("lost_stress_MPa", lambda one: list(one[1].candidates)),
+            Column("computed_MPa", lambda one: one[1].computed, "Hertz here", "{:.3f}", ">13"),
+            Column(
+                "computed_difference_percent",
+                lambda one: one[1].computed_difference,
+                "of larger",
+                "{:.3f}",
+                ">11",
+            ),
+        ],
+        [] if comparison is None else list(comparison.columns.items()),
+    )
+
+
+def _meshes(contact: PitchPointContact, meshes: Sequence[FemContact]) -> AnswerTable[FemContact]:
+    """Return a row for each mesh, with its errors against the closed forms."""
     pressure = contact.peak_pressure
     surface = pressure * float(axis_von_mises(0.0, contact.poissons_ratio))
     depth = pressure * greatest_von_mises(contact.poissons_ratio).stress
-    return [
-        {
-            "elements_per_half_width": mesh.elements,
-            "unknowns": mesh.unknowns,
-            "time_s": mesh.seconds,
-            "peak_pressure_MPa": mesh.peak_pressure,
-            "peak_pressure_error_percent": 100.0 * (mesh.peak_pressure / pressure - 1.0),
-            "half_width_mm": mesh.half_width,
-            "half_width_error_percent": 100.0 * (mesh.half_width / contact.half_width - 1.0),
-            "surface_von_mises_MPa": mesh.surface_von_mises,
-            "surface_error_percent": 100.0 * (mesh.surface_von_mises / surface - 1.0),
-            "depth_von_mises_MPa": mesh.depth_von_mises,
-            "depth_error_percent": 100.0 * (mesh.depth_von_mises / depth - 1.0),
-            "depth_of_von_mises_mm": mesh.depth_of_greatest,
-        }
-        for mesh in meshes
-    ]
+
+    def error(
+        name: str, of: Callable[[FemContact], float], closed: float, head: str = "error"
+    ) -> Column[FemContact]:
+        key = f"{name}_error_percent"
+        return Column(key, lambda one: 100.0 * (of(one) / closed - 1.0), head, "{:+.2f} %", ">9")
+
+    return AnswerTable(
+        [
+            Column("elements_per_half_width", lambda one: one.elements, "per a", side=">5"),
+            Column("unknowns", lambda one: one.unknowns, "unknowns", side=">10"),
+            Column("time_s", lambda one: one.seconds),
+            Column("peak_pressure_MPa", lambda one: one.peak_pressure, "p0, MPa", "{:.3f}", ">11"),
+            error("peak_pressure", lambda one: one.peak_pressure, pressure),
+            Column("half_width_mm", lambda one: one.half_width),
+            error("half_width", lambda one: one.half_width, contact.half_width, "a"),
+            Column("surface_von_mises_MPa", lambda one: one.surface_von_mises, "surface", "{:.2f}", ">10"),
+            error("surface", lambda one: one.surface_von_mises, surface),
+            Column("depth_von_mises_MPa", lambda one: one.depth_von_mises, "below", "{:.2f}", ">10"),
+            error("depth", lambda one: one.depth_von_mises, depth),
+            Column("depth_of_von_mises_mm", lambda one: one.depth_of_greatest),
+            Column("", lambda one: one.seconds, "time", "{:.1f} s", ">9"),
+        ],
+        meshes,
+    )
 
 
 def _axis_stresses(contact: PitchPointContact) -> pd.DataFrame:

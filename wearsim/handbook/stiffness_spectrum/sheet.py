@@ -1,18 +1,18 @@
 """The spectrum of a mesh stiffness: text, tables and warnings."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from wearsim.handbook.stiffness_spectrum.keys import StiffnessSpectrumTables
 from wearsim.handbook.stiffness_spectrum.mesh_statics import MeshStatics
 from wearsim.handbook.stiffness_spectrum.model import SpectrumLine, StiffnessSpectrum
 from wearsim.quantities import grouped
+from wearsim.report.answer_table import AnswerTable, Column, plain
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import numbered_assumptions, row, table_lines
+from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 if TYPE_CHECKING:
-    import pandas as pd
     from matplotlib.figure import Figure
 
 _COUNTED = {
@@ -27,77 +27,77 @@ _ASSUMPTIONS = (
 )
 
 
-def stiffness_spectrum_sheet(
-    tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum
-) -> CalculationSheet:
+def stiffness_spectrum_sheet(given: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> CalculationSheet:
     """Return what ``wearsim stiffness-spectrum`` shows."""
-    lines = [_row(line, spectrum) for line in spectrum.lines]
+    tables: dict[str, AnswerTable[Any]] = {"lines": _lines_table(spectrum, spectrum.lines)}
     content: dict[str, Any] = {
-        "title": tables.title,
+        "title": given.title,
         "contact_ratio": spectrum.pair.contact_ratio,
-        "model": tables.spectrum.model,
-        "mesh_frequency_Hz": _plain(spectrum.mesh_frequency),
+        "model": given.spectrum.model,
+        "mesh_frequency_Hz": plain(spectrum.mesh_frequency),
         "mean_contacts": spectrum.contacts.mean,
-        "series_mean_contacts": _plain(spectrum.series_mean),
+        "series_mean_contacts": plain(spectrum.series_mean),
         "variance_share": spectrum.variance_share,
-        "lines": lines,
+        "lines": tables["lines"].records(),
     }
-    rows = {"lines": lines}
     if spectrum.statics is not None:
-        content["statics"] = _statics(spectrum.statics)
-        rows["statics"] = content["statics"]["deflections"]
-
-    def _made() -> dict[str, "pd.DataFrame"]:
-        import pandas as pd
-
-        return {name: pd.DataFrame(found) for name, found in rows.items()}
+        tables["statics"] = _deflections(spectrum.statics)
+        content["statics"] = {
+            "force_N": spectrum.statics.force,
+            "mean_stiffness_N_per_mm": spectrum.statics.stiffness.mean,
+            "deflections": tables["statics"].records(),
+        }
 
     def _drawn() -> dict[str, "Figure"]:
         from wearsim.handbook.stiffness_spectrum.figure import stiffness_spectrum_figure
 
-        return {"stiffness_spectrum": stiffness_spectrum_figure(tables.title, spectrum)}
+        return {"stiffness_spectrum": stiffness_spectrum_figure(given.title, spectrum)}
 
     return CalculationSheet(
-        text=_text(tables, spectrum),
+        text=_text(given, spectrum),
         content=content,
-        tables=_made,
+        tables=lambda: tables,
         figures=_drawn,
-        warnings=tuple(_warnings(tables, spectrum)),
+        warnings=tuple(_warnings(given, spectrum)),
     )
 
 
-def _plain(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
-def _row(line: SpectrumLine, spectrum: StiffnessSpectrum) -> dict[str, Any]:
-    order = line.harmonic / spectrum.pair.meshes
-    harmonic, pinion, wheel = line.combinations[0]
-    return {
-        "line": line.name,
-        "line_family": line.family,
-        "tooth_harmonic": harmonic,
-        "pinion_sideband": pinion,
-        "wheel_sideband": wheel,
-        "mesh_order": order,
-        "frequency_Hz": _plain(order * spectrum.mesh_frequency),
-        "two_sided_coefficient": line.two_sided,
-        "one_sided_amplitude": line.one_sided,
-        "series_one_sided_amplitude": _plain(line.series),
-        "stiffness_one_sided_amplitude_N_per_mm": _plain(line.stiffness),
-    }
-
-
-def _statics(statics: MeshStatics) -> dict[str, Any]:
-    columns = (statics.contacts, statics.deflections, statics.stiffnesses)
-    return {
-        "force_N": statics.force,
-        "mean_stiffness_N_per_mm": statics.stiffness.mean,
-        "deflections": [
-            {"contacts": n, "deflection_mm": delta, "stiffness_N_per_mm": stiffness}
-            for n, delta, stiffness in zip(*(c.tolist() for c in columns), strict=True)
+def _lines_table(spectrum: StiffnessSpectrum, lines: Sequence[SpectrumLine]) -> AnswerTable[SpectrumLine]:
+    """Return a row for each line; on the screen with the columns that there are."""
+    meshes, frequency = spectrum.pair.meshes, spectrum.mesh_frequency
+    hertz = "f, Hz" if math.isfinite(frequency) else None
+    closed = "closed form" if math.isfinite(spectrum.series_mean) else None
+    stiffness = None if spectrum.statics is None else "C one-sided, N/mm"
+    return AnswerTable(
+        [
+            Column("line", lambda one: one.name),
+            Column("", lambda one: one.short_name, "line", side="<"),
+            Column("line_family", lambda one: one.family),
+            Column("tooth_harmonic", lambda one: one.combinations[0][0]),
+            Column("pinion_sideband", lambda one: one.combinations[0][1]),
+            Column("wheel_sideband", lambda one: one.combinations[0][2]),
+            Column("mesh_order", lambda one: one.harmonic / meshes, "f/fz", "{:.5f}"),
+            Column("frequency_Hz", lambda one: one.harmonic / meshes * frequency, hertz, "{:.2f}"),
+            Column("two_sided_coefficient", lambda one: one.two_sided, "two-sided", "{:.4e}"),
+            Column("one_sided_amplitude", lambda one: one.one_sided, "one-sided", "{:.4e}"),
+            Column("series_one_sided_amplitude", lambda one: one.series, closed, "{:.4e}"),
+            Column("stiffness_one_sided_amplitude_N_per_mm", lambda one: one.stiffness, stiffness, "{:.4g}"),
         ],
-    }
+        lines,
+    )
+
+
+def _deflections(statics: MeshStatics) -> AnswerTable[tuple[float, float, float]]:
+    """Return deflection and stiffness by the number of contacts."""
+    columns = (statics.contacts, statics.deflections, statics.stiffnesses)
+    return AnswerTable(
+        [
+            Column("contacts", lambda one: one[0], "contacts N", "{:g}", "<12"),
+            Column("deflection_mm", lambda one: one[1], "deflection, mm", "{:.6g}", ">16"),
+            Column("stiffness_N_per_mm", lambda one: one[2], "stiffness, N/mm", "{:.6g}", ">18"),
+        ],
+        list(zip(*(column.tolist() for column in columns), strict=True)),
+    )
 
 
 def _text(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> str:
@@ -110,24 +110,23 @@ def _text(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> str:
     period = f"{pair.pinion_turns} turns of the pinion, {pair.wheel_turns} of the wheel"
     frequency = spectrum.mesh_frequency
     rows = [
-        row("Contact", f"ratio {pair.contact_ratio:.6g}; mean {mean}; model {tables.spectrum.model}"),
-        row("Period", f"{period}, {pair.meshes} meshes"),
+        Finding("Contact", f"ratio {pair.contact_ratio:.6g}; mean {mean}; model {tables.spectrum.model}"),
+        Finding("Period", f"{period}, {pair.meshes} meshes"),
         *(
-            [row("Frequency", _frequencies(pair.pinion.teeth, pair.wheel.teeth, frequency))]
+            [Finding("Frequency", _frequencies(pair.pinion.teeth, pair.wheel.teeth, frequency))]
             if math.isfinite(frequency)
             else []
         ),
-        row(
+        Finding(
             "Lines",
             f"the {len(strongest)} strongest of {len(spectrum.lines)}; all of them hold "
             f"{100.0 * spectrum.variance_share:.3g} % of the variance of the contacts",
         ),
     ]
+    ordered = _lines_table(spectrum, sorted(strongest, key=lambda line: line.harmonic))
+    statics = [] if spectrum.statics is None else ["", *_statics_parts(spectrum.statics)]
     assumed = numbered_assumptions((_COUNTED[tables.spectrum.model], *_ASSUMPTIONS))
-    statics = [] if spectrum.statics is None else ["", *_statics_text(spectrum.statics)]
-    return "\n".join(
-        [tables.title, *rows, "", *_table(strongest, spectrum), *statics, "", row("Assumes", assumed)]
-    )
+    return answer_text(tables.title, *rows, "", *ordered.lines(""), *statics, "", Finding("Assumes", assumed))
 
 
 def _frequencies(pinion_teeth: int, wheel_teeth: int, frequency: float) -> str:
@@ -135,36 +134,14 @@ def _frequencies(pinion_teeth: int, wheel_teeth: int, frequency: float) -> str:
     return f"fz = {frequency:.5g} Hz; {turns}"
 
 
-def _table(lines: list[SpectrumLine], spectrum: StiffnessSpectrum) -> list[str]:
-    """Give the lines in the order of their frequency, with the columns that there are."""
-    columns: dict[str, Any] = {
-        "line": lambda line: line.short_name,
-        "f/fz": lambda line: f"{line.harmonic / spectrum.pair.meshes:.5f}",
-    }
-    if math.isfinite(spectrum.mesh_frequency):
-        hertz = spectrum.mesh_frequency / spectrum.pair.meshes
-        columns["f, Hz"] = lambda line: f"{line.harmonic * hertz:.2f}"
-    columns["two-sided"] = lambda line: f"{line.two_sided:.4e}"
-    columns["one-sided"] = lambda line: f"{line.one_sided:.4e}"
-    if math.isfinite(spectrum.series_mean):
-        columns["closed form"] = lambda line: f"{line.series:.4e}"
-    if spectrum.statics is not None:
-        columns["C one-sided, N/mm"] = lambda line: f"{line.stiffness:.4g}"
-    ordered = sorted(lines, key=lambda line: line.harmonic)
-    cells = [[name, *(show(line) for line in ordered)] for name, show in columns.items()]
-    return table_lines(zip(*cells, strict=True), words=1)
-
-
-def _statics_text(statics: MeshStatics) -> list[str]:
+def _statics_parts(statics: MeshStatics) -> list[object]:
     law = f"{statics.constant:.6g} N/mm^{statics.exponent - 1.0:g}"
-    lines = [f"{'contacts N':12s}{'deflection, mm':>16s}{'stiffness, N/mm':>18s}"]
-    found = zip(statics.contacts, statics.deflections, statics.stiffnesses, strict=True)
-    lines += [f"{n:<12g}{delta:16.6g}{stiffness:18.6g}" for n, delta, stiffness in found]
+    force = f"{grouped(statics.force, 6)} N along the common normal; one contact has B = {law}"
     return [
-        row("Load", f"{grouped(statics.force, 6)} N along the common normal; one contact has B = {law}"),
-        row("Stiffness", f"mean {grouped(statics.stiffness.mean, 6)} N/mm"),
+        Finding("Load", force),
+        Finding("Stiffness", f"mean {grouped(statics.stiffness.mean, 6)} N/mm"),
         "",
-        *lines,
+        *_deflections(statics).lines(""),
     ]
 
 

@@ -18,8 +18,9 @@ from wearsim.handbook.strength.model import (
     shown_hours,
 )
 from wearsim.quantities import grouped
+from wearsim.report.answer_table import plain
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -43,7 +44,7 @@ def strength_text(tables: StrengthTables, pair: PairStrength) -> str:
     lines += _acting_lines([contact for contact, _ in pair.stresses], "H")
     lines += ["bending", *_endured_lines([gear.bending for gear in pair.gears], "F")]
     lines += _acting_lines([bending for _, bending in pair.stresses], "F")
-    return "\n".join([*lines, "", *_answer(tables, pair)])
+    return answer_text(*lines, "", *_findings(tables, pair))
 
 
 def _endured_lines(endured: list[Endurance], letter: str) -> list[str]:
@@ -86,33 +87,33 @@ def _hours(life: EnduredHours) -> str:
     return f"{grouped(life.hours)} h" if life.hours > 0.0 else "at no time"
 
 
-def _answer(tables: StrengthTables, pair: PairStrength) -> list[str]:
+def _findings(tables: StrengthTables, pair: PairStrength) -> list[Finding]:
     governs = pair.contact_governs
     allowed = f"[sigma]_H = {governs.contact.allowable:.1f} MPa, that of the {governs.name}"
-    lines = [row("Pair", f"{allowed}, for {grouped(pair.hours)} h; loads: {pair.spectrum.name}")]
+    lines = [Finding("Pair", f"{allowed}, for {grouped(pair.hours)} h; loads: {pair.spectrum.name}")]
     if pair.load is not None:
         contact, bending = zip(*pair.stresses, strict=True)
         lines += [
-            *_load_rows(pair.load),
-            row("Life", _lives(contact, pair, "contact")),
-            row("", _lives(bending, pair, "bending")),
+            *_load_findings(pair.load),
+            Finding("Life", _lives(contact, pair, "contact")),
+            Finding("", _lives(bending, pair, "bending")),
         ]
-    return [*lines, row("Assumes", numbered_assumptions(_assumptions(tables, pair.load)))]
+    return [*lines, Finding("Assumes", numbered_assumptions(_assumptions(tables, pair.load)))]
 
 
-def _load_rows(load: ToothLoad) -> list[str]:
+def _load_findings(load: ToothLoad) -> list[Finding]:
     mesh, contact, bending = load.mesh, load.contact_factor, load.bending_factor
     factors = (
         f"K_A {contact.application:g}, face {contact.face:.4g}, teeth {contact.transverse:.4g}, mesh "
         f"{contact.dynamic:g}"
     )
     return [
-        row(
+        Finding(
             "Load",
             f"T = {1e-3 * mesh.torque:g} N m, F_t = {mesh.tangential_force:.1f} N; "
             f"K_H = {contact.total:.4f} ({factors}), K_F = {bending.total:.4f}",
         ),
-        row(
+        Finding(
             "Contact",
             f"sigma_H = {load.corrected_contact_stress:.1f} MPa by the normal force, "
             f"{load.printed_contact_stress:.1f} MPa by the tangential one as printed; the "
@@ -184,10 +185,6 @@ def _acting(pair: PairStrength) -> list[tuple[GearEndurance, Sequence[StressChec
     return list(zip(pair.gears, pair.stresses or ((), ()), strict=True))
 
 
-def _known(value: float) -> float | None:
-    return None if math.isnan(value) else value
-
-
 def _pair_content(pair: PairStrength) -> dict[str, Any]:
     content: dict[str, Any] = {
         "life_hours": pair.hours,
@@ -235,14 +232,14 @@ def _gear_row(gear: GearEndurance, acting: Sequence[StressCheck]) -> dict[str, A
             f"raw_{name}_life_factor": endured.raw_factor,
             f"{name}_life_factor": endured.factor,
             f"allowable_{name}_MPa": endured.allowable,
-            f"greatest_{name}_MPa": _known(endured.greatest),
+            f"greatest_{name}_MPa": plain(endured.greatest),
         }
     for name, one in zip(_NAMES, acting, strict=False):
         found |= {
             f"{name}_stress_MPa": one.lasting,
             f"{name}_margin": one.margin,
             f"peak_{name}_stress_MPa": one.peak,
-            f"{name}_overload_margin": _known(one.peak_margin),
+            f"{name}_overload_margin": plain(one.peak_margin),
             f"{name}_life_hours": one.life.hours,
             f"{name}_life_is_bound": one.life.bound,
         }

@@ -15,8 +15,9 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.handbook.synthesise.figure import direction_figure, field_figure, indices_figure, line_figure
 from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.model import MeshField, MeshPhase, direction_fields, stress_fields
+from wearsim.report.answer_table import records_of
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 _ASSUMPTIONS = (
     "the wheels are rigid, one pair of teeth carries the whole load, and there is no friction",
@@ -66,7 +67,7 @@ def synthesis_sheet(
             "best_pitch_point_angle_deg": math.degrees(pair.load.best_pitch_point_angle),
             "pitch_point_pressure_angle_deg": _pitch_point_angle(pair),
             "mesh_phases": [_summary(number, phase) for number, phase in enumerate(phases, 1)],
-            "indices": _plain(indices),
+            "indices": records_of(indices),
         },
         tables=lambda: made,
         figures=lambda: figures,
@@ -181,12 +182,6 @@ def _summary(number: int, phase: MeshPhase) -> dict[str, Any]:
     }
 
 
-def _plain(table: pd.DataFrame) -> list[dict[str, Any]]:
-    """Return the rows as plain values, without nan and infinity."""
-    plain = table.astype(object).where(np.isfinite(table), None)
-    return [dict(zip(plain.columns, line, strict=True)) for line in plain.to_numpy().tolist()]
-
-
 _HEAD = (
     f"{'l':>9s}{'alpha':>8s}{'phi1':>9s}{'rho1':>10s}{'rho2':>10s}{'sigma_H':>9s}{'involute':>10s}"
     f"{'v_s':>9s}{'theta1':>9s}{'theta2':>9s}\n"
@@ -199,14 +194,14 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd
     kind = "at a pressure angle of 0, constant torque" if load.power else "at every angle"
     requested = f"{float(pair.stress.at(0.0)):.6g} MPa "
     takes = "is too little" if angle is None else f"takes a pressure angle of {angle:.6g} deg"
-    lines = [
+    parts: list[object] = [
         title,
-        row(
+        Finding(
             "Pair",
             f"pitch radii {circles.pinion_radius:.6g} and {circles.wheel_radius:.6g} mm, contact modulus "
             f"{pair.modulus:.6g} MPa, {load.base:.6g} N/mm {kind}",
         ),
-        row(
+        Finding(
             "Stress",
             f"at least {pair.least_pitch_point_stress:.6g} MPa at the pitch point (at "
             f"{math.degrees(load.best_pitch_point_angle):g} deg); {requested}{takes}",
@@ -215,9 +210,9 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd
     for number, phase in enumerate(phases, 1):
         rows = indices[indices["mesh_phase"] == number]
         shown = np.unique(np.linspace(0, len(rows) - 1, _ROWS).astype(int))
-        lines += ["", row(f"Phase {number}", _phase(phase, rows)), _HEAD]
-        lines += [_row(rows.iloc[at]) for at in shown]
-    return "\n".join([*lines, "", row("Assumes", numbered_assumptions(_ASSUMPTIONS))])
+        parts += ["", Finding(f"Phase {number}", _phase(phase, rows)), _HEAD]
+        parts += [_row(rows.iloc[at]) for at in shown]
+    return answer_text(*parts, "", Finding("Assumes", numbered_assumptions(_ASSUMPTIONS)))
 
 
 def _phase(phase: MeshPhase, rows: pd.DataFrame) -> str:

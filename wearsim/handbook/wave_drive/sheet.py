@@ -5,8 +5,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from wearsim.handbook.wave_drive.model import MethodComparison, MethodDiameter
+from wearsim.report.answer_table import plain
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -60,7 +61,6 @@ def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequenc
 
 
 def _row(one: MethodDiameter) -> dict[str, Any]:
-    known = not math.isnan(one.published)
     return {
         "sizing_method": one.method.name,
         "textbook": one.method.source,
@@ -71,10 +71,10 @@ def _row(one: MethodDiameter) -> dict[str, Any]:
         "rank": one.rank,
         "least_rank": one.least_rank,
         "greatest_rank": one.greatest_rank,
-        "published_diameter_mm": one.published if known else None,
-        "reproduces": one.reproduces if known else None,
+        "published_diameter_mm": plain(one.published),
+        "reproduces": None if math.isnan(one.published) else one.reproduces,
         "allowable": one.method.allowable,
-        "needed_allowable": None if math.isnan(one.needed) else one.needed,
+        "needed_allowable": plain(one.needed),
     }
 
 
@@ -93,7 +93,7 @@ def _text(title: str, found: Sequence[MethodDiameter], assumptions: tuple[str, .
         )
     published = [f"  {_held(one)}" for one in found if not math.isnan(one.published)]
     lines += ["", *published] if published else []
-    return "\n".join([*lines, "", row("Assumes", numbered_assumptions(assumptions))])
+    return answer_text(*lines, "", Finding("Assumes", numbered_assumptions(assumptions)))
 
 
 def _held(one: MethodDiameter) -> str:

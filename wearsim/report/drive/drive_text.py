@@ -11,11 +11,11 @@ from wearsim.report.drive.drive_words import (
     against_hours,
     band_source,
     band_text,
-    explained_rows,
-    failed_rows,
+    drive_findings,
+    explained_findings,
+    failed_findings,
     first_stop_text,
     first_text,
-    found_rows,
     grouped_parts,
     jumping_text,
     lives_text,
@@ -30,7 +30,7 @@ from wearsim.report.drive.drive_words import (
     worn_most_text,
     worn_text,
 )
-from wearsim.report.text_lines import counted, listed, numbered, row
+from wearsim.report.text_lines import Finding, answer_text, counted, listed, numbered, row
 from wearsim.result import Life
 from wearsim.result.ends import CHAIN, wear_only
 from wearsim.result.lives import hours
@@ -47,21 +47,20 @@ _MAX_NAMED = 3
 def drive_text(found: DriveLife, source: str, explain: bool = False) -> str:
     """Return what ``wearsim life`` prints of a whole drive, on request with all that it rests on."""
     command = shlex.join(["wearsim", "report", source, "--out", "sheet.html"])
-    rows = _all_rows(found) if explain else _short_rows(found)
-    return "\n".join([found.drive.title, *rows, row("Next", command.replace(" ", "\u00a0"))])
+    rows = _all_findings(found) if explain else _short_rows(found)
+    return answer_text(found.drive.title, *rows, Finding("Next", command.replace(" ", "\u00a0")))
 
 
-def _all_rows(found: DriveLife) -> list[str]:
+def _all_findings(found: DriveLife) -> list[Finding]:
     places = "; ".join(f"{name} {worn_text(result)}" for name, result in found.results.items())
-    rows = [
-        *found_rows(found),
-        ("Worn most", f"{places} from the right tip"),
-        ("Band from", band_source(found)),
-        *explained_rows(found),
-        ("Warnings", "; ".join(found.warnings) or "none"),
-        ("Assumes", numbered(*taken_for_granted(found))),
+    return [
+        *drive_findings(found),
+        Finding("Worn most", f"{places} from the right tip"),
+        Finding("Band from", band_source(found)),
+        *explained_findings(found),
+        Finding("Warnings", "; ".join(found.warnings) or "none"),
+        Finding("Assumes", numbered(*taken_for_granted(found))),
     ]
-    return [row(label, text) for label, text in rows]
 
 
 def _short_rows(found: DriveLife) -> list[str]:
@@ -101,7 +100,7 @@ def _part_rows(found: DriveLife) -> list[str]:
     for label, names in grouped_parts(found, _MAX_ROWS):
         alone = names == (label,)
         rows.append(_line(label, *(_part(found, label) if alone else _lives(own_lives(found, label, names)))))
-    return [*rows, *(row(label, text, 1) for label, text in failed_rows(found))]
+    return [*rows, *(row(label, text, 1) for label, text in failed_findings(found))]
 
 
 def _chain(found: DriveLife) -> list[str]:

@@ -14,7 +14,7 @@ from wearsim.report.answer import (
     JUMPING,
     SAFE,
     beyond_ratings,
-    chain_rows,
+    chain_findings,
     ending,
     jumping_margin,
     overload_text,
@@ -23,7 +23,7 @@ from wearsim.report.answer import (
 )
 from wearsim.report.drive.layout import layout_json
 from wearsim.report.drive.plan_words import ordinal
-from wearsim.report.text_lines import listed, stated_and_defaults
+from wearsim.report.text_lines import Finding, listed, stated_and_defaults
 from wearsim.result import Life, LowerBound, WearResult, life_keys
 from wearsim.result.ends import CHAIN, before_wear, ends_json, first_end_keys
 from wearsim.result.events import events_json
@@ -42,16 +42,16 @@ _MAX_THEN = 2
 """Stops that are named after the first one."""
 
 
-def found_rows(found: DriveLife) -> list[tuple[str, str]]:
+def drive_findings(found: DriveLife) -> list[Finding]:
     """Return the life of every part, what is replaced first, the band and the ratings."""
     return [
-        (CHAIN.capitalize(), "; ".join(filter(None, (part_text(found, CHAIN), against_hours(found))))),
-        *((name, part_text(found, name)) for name in found.results),
-        *failed_rows(found),
-        ("First", first_text(drive_plan(found))),
-        ("Band", band_text(found)),
-        *([("Practice", practice_text(found.practice))] if found.practice else []),
-        ("Ratings", ratings_text(found)),
+        Finding(CHAIN.capitalize(), "; ".join(filter(None, (part_text(found, CHAIN), against_hours(found))))),
+        *(Finding(name, part_text(found, name)) for name in found.results),
+        *failed_findings(found),
+        Finding("First", first_text(drive_plan(found))),
+        Finding("Band", band_text(found)),
+        *([Finding("Practice", practice_text(found.practice))] if found.practice else []),
+        Finding("Ratings", ratings_text(found)),
     ]
 
 
@@ -74,16 +74,16 @@ def outside_practice(found: DriveLife) -> str:
     return "outside any published practice: " if found.practice is not None and found.practice.outside else ""
 
 
-def explained_rows(found: DriveLife) -> list[tuple[str, str]]:
+def explained_findings(found: DriveLife) -> list[Finding]:
     """Return a line for everything that may end a part, for every published rule and for every event."""
     if found.practice is None:
         return []
-    return chain_rows(found.ends, found.practice, planned_events(drive_plan(found)))
+    return chain_findings(found.ends, found.practice, planned_events(drive_plan(found)))
 
 
-def failed_rows(found: DriveLife) -> list[tuple[str, str]]:
+def failed_findings(found: DriveLife) -> list[Finding]:
     """Return the sprockets whose runs have failed, and why."""
-    return [(name, f"no life: {error}") for name, error in found.failed.items()]
+    return [Finding(name, f"no life: {error}") for name, error in found.failed.items()]
 
 
 def grouped_parts(found: DriveLife, most_rows: int) -> list[tuple[str, tuple[str, ...]]]:
@@ -108,13 +108,14 @@ def grouped_parts(found: DriveLife, most_rows: int) -> list[tuple[str, tuple[str
     return [(_TOGETHER, tuple(found.results))]
 
 
-def part_rows(found: DriveLife) -> list[tuple[str, str]]:
+def part_findings(found: DriveLife) -> list[Finding]:
     """Return the lives of chain and sprockets by their names, of many sprockets together."""
-    rows = [(CHAIN.capitalize(), part_text(found, CHAIN))]
+    rows = [Finding(CHAIN.capitalize(), part_text(found, CHAIN))]
     for label, names in grouped_parts(found, _MAX_ROWS):
         alone = names == (label,)
-        rows.append((label, part_text(found, label) if alone else lives_text(own_lives(found, label, names))))
-    return [*rows, *failed_rows(found)]
+        text = part_text(found, label) if alone else lives_text(own_lives(found, label, names))
+        rows.append(Finding(label, text))
+    return [*rows, *failed_findings(found)]
 
 
 def ratings_text(found: DriveLife) -> str:

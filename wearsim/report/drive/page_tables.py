@@ -1,7 +1,8 @@
 """Tables of the sheet of a drive: geometry, forces, ratings, lives and replacements, in words."""
 
 import math
-from dataclasses import dataclass
+from functools import partial
+from operator import itemgetter
 from typing import Any
 
 from wearsim.catalogue.catalogues import wear_laws
@@ -10,47 +11,16 @@ from wearsim.chain.loop_layout import LoopLayout
 from wearsim.drive.drive_case import DriveCase, DriveSprocket
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan
+from wearsim.drive.plan import Stop
 from wearsim.drive.wheels import DriveWheel
 from wearsim.errors import CaseError, GeometryError
 from wearsim.mechanisms.wrap.drive import PRESSURE_SPEED, JointInput
 from wearsim.quantities import grouped
+from wearsim.report.answer_table import AnswerTable, Column
 from wearsim.report.drive.drive_words import part_ending
 from wearsim.report.drive.layout import layout_json
-from wearsim.result import Life, LowerBound
+from wearsim.result import Life
 from wearsim.result.lives import hours, service_measures
-
-
-@dataclass(frozen=True)
-class PageTable:
-    """A table of the page."""
-
-    name: str
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-    text: tuple[int, ...] = (0,)  # columns of words, the others are numbers
-
-
-def rating_table(found: DriveLife) -> tuple[PageTable, tuple[str, ...]]:
-    """Return the ratings with their margins, and the notes that their sources point to."""
-    ratings = found.reference.ratings
-    notes = tuple(dict.fromkeys(one.note for one in ratings if one.note))
-    rows = []
-    for one in ratings:
-        unit = f" {one.unit}" if one.unit else ""
-        mark = f" [{notes.index(one.note) + 1}]" if one.note else ""
-        rows.append(
-            (
-                one.name,
-                f"{grouped(one.value)}{unit}",
-                f"{'≥' if one.at_least else '≤'} {grouped(one.limit)}{unit}",
-                f"{grouped(one.margin)}{unit}",
-                f"{grouped(100.0 * one.used, 3)} %",
-                "ok" if one.ok else "outside",
-                "; ".join(text for text in (one.source, one.load) if text) + mark,
-            )
-        )
-    head = ("rating", "value", "allowed", "margin", "used", "verdict", "source")
-    return PageTable("Ratings", head, tuple(rows), (0, 5, 6)), notes
 
 
 def wheel_of(drive: DriveCase) -> dict[str, DriveWheel]:
@@ -59,22 +29,22 @@ def wheel_of(drive: DriveCase) -> dict[str, DriveWheel]:
     return {one.name: wheel for one, wheel in zip(drive.sprockets, each, strict=True)}
 
 
-def geometry_table(drive: DriveCase) -> PageTable:
+def geometry_table(drive: DriveCase) -> AnswerTable[DriveSprocket]:
     """Return the sizes of all sprockets, each cog of a cassette for itself."""
-    head = [
-        "sprocket",
-        "role",
-        "teeth",
-        "pitch dia.",
-        "root dia.",
-        "tip dia.",
-        "over pins",
-        "wrap",
-        "in mesh",
+    columns: list[Column[DriveSprocket]] = [
+        Column("", lambda one: one.name, "sprocket", side="<"),
+        Column("", lambda one: one.role, "role", side="<"),
+        Column("", lambda one: one.drive.gaps, "teeth"),
+        Column("", _pitch_diameter, "pitch dia.", "{:.2f}"),
+        Column("", lambda one: one.drive.root_diameter, "root dia.", "{:.2f}"),
+        Column("", lambda one: one.drive.tip_diameter, "tip dia.", "{:.2f}"),
+        Column("", lambda one: one.drive.over_pins, "over pins", "{:.2f}"),
+        Column("", lambda one: math.degrees(one.drive.wrap_angle), "wrap", "{:.1f}"),
+        Column("", lambda one: one.drive.wrap_angle / one.drive.pitch_angle, "in mesh", "{:.1f}"),
     ]
     hubs = [key for key in _HUB if any(getattr(one.drive.hub, key) for one in drive.sprockets)]
-    rows = [(*_sizes(one), *(_given(one, key) for key in hubs)) for one in drive.sprockets]
-    return PageTable("Sprockets, mm and degrees", (*head, *(_HUB[key] for key in hubs)), tuple(rows), (0, 1))
+    columns += [Column("", partial(_hub_size, key), _HUB[key], "{:g}") for key in hubs]
+    return AnswerTable(columns, drive.sprockets)
 
 
 _HUB = {
@@ -86,23 +56,12 @@ _HUB = {
 }
 
 
-def _sizes(one: DriveSprocket) -> tuple[str, ...]:
-    drive = one.drive
-    pitch = drive.layout.pitch / math.sin(0.5 * drive.pitch_angle)
-    sizes = (pitch, drive.root_diameter, drive.tip_diameter, drive.over_pins)
-    return (
-        one.name,
-        one.role,
-        str(drive.gaps),
-        *(f"{size:.2f}" for size in sizes),
-        f"{math.degrees(drive.wrap_angle):.1f}",
-        f"{drive.wrap_angle / drive.pitch_angle:.1f}",
-    )
+def _pitch_diameter(one: DriveSprocket) -> float:
+    return one.drive.layout.pitch / math.sin(0.5 * one.drive.pitch_angle)
 
 
-def _given(one: DriveSprocket, key: str) -> str:
-    value: float = getattr(one.drive.hub, key)
-    return f"{value:g}" if value else "-"
+def _hub_size(key: str, one: DriveSprocket) -> float | None:
+    return getattr(one.drive.hub, key) or None
 
 
 def chain_rows(drive: DriveCase) -> list[tuple[str, str]]:
@@ -152,32 +111,29 @@ def _take_up(layout: DriveLayout | LoopLayout, limit: float) -> list[tuple[str, 
     ]
 
 
-def shaft_table(drive: DriveCase) -> PageTable:
+def shaft_table(drive: DriveCase) -> AnswerTable[dict[str, Any]]:
     """Return speed, torque, power and load of all shafts under the highest load."""
     found = layout_json(drive)
     speed = 6e4 * found["chain_speed_m_per_s"] / drive.driver.drive.layout.pitch
-    rows = tuple(
-        (
-            one["name"],
-            grouped(speed / one["teeth"]),
-            grouped(one["torque_N_m"]),
-            grouped(one["power_kW"]),
-            grouped(one["shaft_load_N"]),
-            f"{one['shaft_direction_deg']:.1f}",
-        )
-        for one in found["sprockets"]
-    )
-    head = ("shaft", "speed, rpm", "torque, N\u00a0m", "power, kW", "load, N", "direction, deg")
-    return PageTable("Shafts", head, rows)
+    columns: list[Column[dict[str, Any]]] = [
+        Column("", itemgetter("name"), "shaft", side="<"),
+        Column("", lambda one: speed / one["teeth"], "speed, rpm", grouped),
+        Column("", itemgetter("torque_N_m"), "torque, N\u00a0m", grouped),
+        Column("", itemgetter("power_kW"), "power, kW", grouped),
+        Column("", itemgetter("shaft_load_N"), "load, N", grouped),
+        Column("", itemgetter("shaft_direction_deg"), "direction, deg", "{:.1f}"),
+    ]
+    return AnswerTable(columns, found["sprockets"])
 
 
-def span_table(drive: DriveCase) -> PageTable:
+def span_table(drive: DriveCase) -> AnswerTable[dict[str, Any]]:
     """Return length and tension of all spans under the highest load."""
-    rows = tuple(
-        (f"{one['from']} to {one['to']}", f"{one['length_mm']:.1f}", grouped(one["tension_N"]))
-        for one in layout_json(drive)["spans"]
-    )
-    return PageTable("Spans", ("span", "length, mm", "tension, N"), rows)
+    columns: list[Column[dict[str, Any]]] = [
+        Column("", lambda one: f"{one['from']} to {one['to']}", "span", side="<"),
+        Column("", itemgetter("length_mm"), "length, mm", "{:.1f}"),
+        Column("", itemgetter("tension_N"), "tension, N", grouped),
+    ]
+    return AnswerTable(columns, layout_json(drive)["spans"])
 
 
 def loss_text(drive: DriveCase) -> str:
@@ -224,57 +180,60 @@ def _joint_wear(joint: JointInput) -> str:
     )
 
 
-def life_table(found: DriveLife) -> PageTable:
+def life_table(found: DriveLife) -> AnswerTable[str]:
     """Return the lives of chain and sprockets on one clock."""
-    measures = list(_measures(found, found.life.hours_run))
-    rows = []
-    for name, life in found.parts.items():
-        rows.append(
-            (
-                name,
-                hours(life),
-                _band(found, name, life),
-                *(_measured(found, life, measure) for measure in measures),
-                part_ending(found, name),
-            )
-        )
-    rows += [
-        (name, "no life", "-", *["-"] * len(measures), f"its run failed: {error}")
-        for name, error in found.failed.items()
+    measures = _measures(found, found.life.hours_run)
+    columns: list[Column[str]] = [
+        Column("", str, "part", side="<"),
+        Column("", found.parts.get, "life", hours, missing="no life"),
+        Column("", partial(_band, found), "over the band"),
+        *(Column("", partial(_measured, found, measure), measure) for measure in measures),
+        Column("", partial(_what_ends, found), "what ends it", side="<"),
     ]
-    head = ("part", "life", "over the band", *measures, "what ends it")
-    return PageTable("Lives", head, tuple(rows), (0, len(head) - 1))
+    return AnswerTable(columns, [*found.parts, *found.failed])
+
+
+def _what_ends(found: DriveLife, name: str) -> str:
+    if name in found.failed:
+        return f"its run failed: {found.failed[name]}"
+    return part_ending(found, name)
 
 
 def _measures(found: DriveLife, at: float) -> dict[str, float | str]:
     return service_measures(found.drive.driver.case.inputs, at)
 
 
-def _measured(found: DriveLife, life: Life | LowerBound, measure: str) -> str:
-    value = _measures(found, life.hours_run).get(measure, "-")
-    text = value if isinstance(value, str) else grouped(value)
-    return text if isinstance(life, Life) or text == "-" else f"> {text}"
+def _measured(found: DriveLife, measure: str, name: str) -> str | None:
+    """Return a life in a measure of the service; None where it is not known in it."""
+    life = found.parts.get(name)
+    text = None if life is None else _in_measure(found, measure, life.hours_run)
+    return text if text is None or isinstance(life, Life) else f"> {text}"
 
 
-def _band(found: DriveLife, name: str, life: Life | LowerBound) -> str:
+def _in_measure(found: DriveLife, measure: str, at: float) -> str | None:
+    value = _measures(found, at).get(measure)
+    return value if value is None or isinstance(value, str) else grouped(value)
+
+
+def _band(found: DriveLife, name: str) -> str | None:
     """Lives at both ends of the band."""
-    if not isinstance(life, Life):
-        return "-"
+    if not isinstance(found.parts.get(name), Life):
+        return None
     low, high = (end.hours_run for end in found.band(name))
     return f"{grouped(low)} to {grouped(high)} h"
 
 
-def plan_table(plan: DrivePlan) -> PageTable:
+def plan_table(plan: DrivePlan) -> AnswerTable[Stop]:
     """Return what is replaced when by the best rule of a plan, and with which chain."""
-    measures = list(_measures(plan.found, plan.until))
-    rows = tuple(
-        (
-            f"{grouped(stop.hours)} h",
-            *(_measured(plan.found, Life(0.0, stop.hours), measure) for measure in measures),
-            ", ".join(stop.parts),
-            str(plan.best.chain_at(stop.hours) or "-"),
-        )
-        for stop in plan.stops
-    )
-    head = ("at", *measures, "replace", "chain removed")
-    return PageTable("Replacements", head, rows, (len(head) - 2,))
+    measures = _measures(plan.found, plan.until)
+    columns: list[Column[Stop]] = [
+        Column("", lambda one: one.hours, "at", lambda at: f"{grouped(at)} h"),
+        *(Column("", partial(_stop_measure, plan, measure), measure) for measure in measures),
+        Column("", lambda one: ", ".join(one.parts), "replace", side="<"),
+        Column("", lambda one: plan.best.chain_at(one.hours) or None, "chain removed"),
+    ]
+    return AnswerTable(columns, plan.stops)
+
+
+def _stop_measure(plan: DrivePlan, measure: str, stop: Stop) -> str | None:
+    return _in_measure(plan.found, measure, stop.hours)

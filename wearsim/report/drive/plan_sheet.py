@@ -1,14 +1,16 @@
 """The plan of a drive as text, JSON and CSV files."""
 
-from pathlib import Path
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.drive.maintenance import DrivePlan
 from wearsim.drive.plan import ReplacementRule, Stop
 from wearsim.quantities import grouped
+from wearsim.report.answer_table import AnswerTable, Column, csv_of, table_of
 from wearsim.report.drive.plan_words import rule_text
-from wearsim.report.text_lines import row, table_lines
+from wearsim.report.text_lines import Finding, answer_text, fenced
 from wearsim.result import Life, LowerBound, life_keys
 from wearsim.result.ends import CHAIN, before_wear
 from wearsim.result.lives import hours, service_measures
@@ -49,24 +51,20 @@ def plan_json(plan: DrivePlan) -> dict[str, Any]:
     }
 
 
-def write_plan(plan: DrivePlan, text: str, place: Path) -> None:
-    """Write policies, their parts and their first stops, the words, and the picture into a folder."""
-    import pandas as pd
-
-    from wearsim.report.figures import save_figure
-
+def plan_files(plan: DrivePlan, text: str) -> dict[str, str]:
+    """Return policies, their parts and their first stops, and the words, each as the content of a file."""
     rules = plan.rules
-    parts = [{"policy": rule.name, **one} for rule in rules for one in _parts(rule)]
-    stops = [
-        {"policy": rule.name, **_stop(plan, stop), "parts": ", ".join(stop.parts)}
-        for rule in rules
-        for stop in rule.schedule
-    ]
-    pd.DataFrame([_numbers(rule) for rule in rules]).to_csv(place / "policies.csv", index=False)
-    pd.DataFrame(parts).to_csv(place / "parts.csv", index=False)
-    pd.DataFrame(stops).to_csv(place / "schedule.csv", index=False)
-    (place / "maintenance.md").write_text(f"```\n{text}\n```\n", encoding="utf-8")
-    save_figure(plan.found.plot_history(), place, "history")
+    tables: dict[str, list[dict[str, Any]]] = {
+        "policies": [_numbers(rule) for rule in rules],
+        "parts": [{"policy": rule.name, **one} for rule in rules for one in _parts(rule)],
+        "schedule": [
+            {"policy": rule.name, **_stop(plan, stop), "parts": ", ".join(stop.parts)}
+            for rule in rules
+            for stop in rule.schedule
+        ],
+    }
+    files = {f"{name}.csv": csv_of(table_of(rows)) for name, rows in tables.items()}
+    return {**files, "maintenance.md": fenced(text)}
 
 
 def _numbers(rule: ReplacementRule) -> dict[str, Any]:
@@ -102,15 +100,13 @@ def plan_text(plan: DrivePlan, source: str) -> str:
     lives = ", ".join(_life(plan, name, life) for name, life in plan.lives.items())
     rows = [
         *_cheapest(plan),
-        ("Replace", rule_text(plan.best)),
-        ("Stops", f"{plan.best.name}: {_stops(plan, plan.best)}"),
-        *(("Not known", text) for text in _not_known(plan)),
-        ("Assumes", f"{'; '.join(plan.conventions)}; all else: wearsim check {source}"),
-        ("Warnings", "; ".join(plan.found.warnings) or "none"),
+        Finding("Replace", rule_text(plan.best)),
+        Finding("Stops", f"{plan.best.name}: {_stops(plan, plan.best)}"),
+        *(Finding("Not known", text) for text in _not_known(plan)),
+        Finding("Assumes", f"{'; '.join(plan.conventions)}; all else: wearsim check {source}"),
+        Finding("Warnings", "; ".join(plan.found.warnings) or "none"),
     ]
-    return "\n".join(
-        [plan.drive.title, row("Lives", lives), *_table(plan), *(row(label, text) for label, text in rows)]
-    )
+    return answer_text(plan.drive.title, Finding("Lives", lives), _table(plan), *rows)
 
 
 def _life(plan: DrivePlan, name: str, life: Life | LowerBound) -> str:
@@ -118,44 +114,42 @@ def _life(plan: DrivePlan, name: str, life: Life | LowerBound) -> str:
     return f"{name} {hours(life).replace('> ', '>= ')}" + (f" by {first.mode}" if first else "")
 
 
-def _table(plan: DrivePlan) -> list[str]:
-    """Return parts, stops and cost of every rule in 1000 h, in columns."""
+def _table(plan: DrivePlan) -> AnswerTable[ReplacementRule]:
+    """Return parts, stops and cost of every rule in 1000 h."""
     sprockets = [name for name in plan.lives if name != CHAIN]
-    columns = [[CHAIN], *([name] for name in sprockets)]
-    heads = [CHAIN, *sprockets]
-    if len(sprockets) > _MAX_COLUMNS:
-        columns, heads = [[CHAIN], sprockets], [CHAIN, "sprockets"]
-    lines = [["in 1000 h", "stops", *heads, *(["cost"] if plan.rules[0].cost is not None else [])]]
-    rules = plan.rules
-    if len(rules) > _MAX_RULES:
-        rules = (*rules[:_FIRST], rules[-1])
-    for rule in rules:
-        counts = [
-            _limited(_PER * sum(1.0 / rule.every[name] for name in names), not rule.at_most.isdisjoint(names))
-            for names in columns
-        ]
-        cost = [] if rule.cost is None else [_limited(_PER * rule.cost, bool(rule.at_most))]
-        lines.append([rule.name, _limited(_PER * rule.stop_rate, rule.stops_at_most), *counts, *cost])
-    return [f"  {line}" for line in table_lines(lines, words=1)]
+    each = {name: [name] for name in sprockets}
+    groups = {CHAIN: [CHAIN], **(each if len(sprockets) <= _MAX_COLUMNS else {"sprockets": sprockets})}
+    rules, cost = plan.rules, None if plan.rules[0].cost is None else "cost"
+    columns: list[Column[ReplacementRule]] = [
+        Column("", lambda rule: rule.name, "in 1000 h", side="<"),
+        Column("", lambda rule: _limited(_PER * rule.stop_rate, rule.stops_at_most), "stops"),
+        *(Column("", partial(_counted, names), head) for head, names in groups.items()),
+        Column("", lambda rule: _limited(_PER * (rule.cost or 0.0), bool(rule.at_most)), cost),
+    ]
+    return AnswerTable(columns, rules if len(rules) <= _MAX_RULES else (*rules[:_FIRST], rules[-1]))
+
+
+def _counted(names: Sequence[str], rule: ReplacementRule) -> str:
+    return _limited(_PER * sum(1.0 / rule.every[name] for name in names), not rule.at_most.isdisjoint(names))
 
 
 def _limited(value: float, at_most: bool) -> str:
     return f"<= {grouped(value)}" if at_most else grouped(value)
 
 
-def _cheapest(plan: DrivePlan) -> list[tuple[str, str]]:
+def _cheapest(plan: DrivePlan) -> list[Finding]:
     best = plan.cheapest
     if best is None:
         if plan.rules[0].cost is not None:
             return []
-        return [("Cost", "not known without maintenance.chain_price and a price of every sprocket")]
+        return [Finding("Cost", "not known without maintenance.chain_price and a price of every sprocket")]
     rule = plan.rules[best[0]]
     assert rule.cost is not None
     most = "at most " if rule.at_most else ""
     text = f"{rule.name}, {most}{grouped(_PER * rule.cost)} in 1000 h"
     certain = "" if best[1] else ", as far as is known: a longer run may name another"
     no_less = f"; no plan costs less than {grouped(_PER * plan.no_less)}" if plan.no_less else ""
-    return [("Cheapest", text + certain + no_less)]
+    return [Finding("Cheapest", text + certain + no_less)]
 
 
 def _stops(plan: DrivePlan, rule: ReplacementRule) -> str:

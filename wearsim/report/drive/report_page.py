@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -16,6 +17,8 @@ from wearsim.geometry.scene import Circle, Scene
 from wearsim.quantities import grouped
 from wearsim.report import html
 from wearsim.report.answer import overload_text
+from wearsim.report.answer_table import AnswerTable
+from wearsim.report.drive.drive_drawings import flank_place, layout_sketch, lives_bars
 from wearsim.report.drive.drive_words import (
     against_hours,
     first_text,
@@ -24,22 +27,19 @@ from wearsim.report.drive.drive_words import (
     taken_for_granted,
     within_text,
 )
-from wearsim.report.drive.layout_sketch import flank_place, layout_sketch
-from wearsim.report.drive.lives_bars import lives_bars
 from wearsim.report.drive.page_tables import (
-    PageTable,
     chain_rows,
     geometry_table,
     life_table,
     loss_text,
     lubrication_rows,
     plan_table,
-    rating_table,
     shaft_table,
     span_table,
 )
 from wearsim.report.html.page_content import HtmlTable, chain_tables
 from wearsim.report.html.sketch import sketch
+from wearsim.report.rating import sheet_ratings
 from wearsim.report.text_lines import unbroken
 from wearsim.report.worn_flank import around_flank, worn_flanks
 from wearsim.result import WearResult
@@ -89,19 +89,19 @@ class SheetPage:
     within: str
     jumping: str
     layout: Markup
-    ratings: PageTable
-    rating_notes: tuple[str, ...]
+    ratings: AnswerTable[Any]
+    rating_notes: list[str]
     chain: list[tuple[str, str]]
-    geometry: PageTable
-    shafts: PageTable
-    spans: PageTable
+    geometry: AnswerTable[Any]
+    shafts: AnswerTable[Any]
+    spans: AnswerTable[Any]
     losses: str
     lubrication: list[tuple[str, str]]
-    lives: PageTable
+    lives: AnswerTable[Any]
     bars: Markup
     chain_tables: list[HtmlTable]
     against: str  # which ratings may end the chain before its hours; empty where it is within them
-    plan: PageTable
+    plan: AnswerTable[Any]
     plan_until: str
     plan_rule: str
     plan_goes_on: bool
@@ -154,7 +154,7 @@ def sheet_html(found: DriveLife, head: SheetHead) -> str:
 def _page(found: DriveLife, head: SheetHead) -> SheetPage:
     drive = found.drive
     driver, places = found.reference, [one.name for one in drive.sprockets]
-    ratings, notes = rating_table(found)
+    ratings, notes = sheet_ratings(driver.ratings)
     plan = drive_plan(found)
     assumptions, defaults = taken_for_granted(found)
     return SheetPage(

@@ -8,21 +8,22 @@ from markupsafe import Markup
 
 from wearsim._version import __version__
 from wearsim.case.model import Case
+from wearsim.chain.selection import RatingFinding
 from wearsim.citation import apa
 from wearsim.quantities import grouped, percentile_meaning, percentile_name, percentile_shares
-from wearsim.report.answer import BAND, LIMITS, OVERLOADED, ending, findings, overload_text
-from wearsim.report.comparison import comparison_cells, differing_limits
+from wearsim.report.answer import ending, overload_text, page_findings
+from wearsim.report.answer_table import AnswerTable
+from wearsim.report.comparison import comparison_table, differing_limits
 from wearsim.report.figures import comparison_figures, picture
 from wearsim.report.flank_view import case_of
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.inputs import Input, catalogue_sources, input_table
-from wearsim.report.html.lives_chart import lives_chart
 from wearsim.report.html.margins import Margin, margins
-from wearsim.report.html.run_charts import along_chart, history_chart, tooth_load_chart
+from wearsim.report.html.run_charts import along_chart, history_chart, lives_chart, tooth_load_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
-from wearsim.report.rating import RATING_HEAD, rating_cells
-from wearsim.report.text_lines import stated_and_defaults
+from wearsim.report.rating import ratings_table
+from wearsim.report.text_lines import Finding, stated_and_defaults
 from wearsim.result import Life, WearResult
 from wearsim.result.ends import END_HEAD, PartEnd, before_wear, end_rows, first_hours, wear_only
 from wearsim.result.events import EVENT_HEAD, Event, event_rows
@@ -58,12 +59,9 @@ class CasePage:
     high: str  # life at its long end
     band: str  # where that comes from
     percentiles: list[tuple[str, str]]  # names and hours, where they are known
-    findings: list[tuple[str, str]]  # the rest of the answer
+    findings: list[Finding]  # the rest of the answer
     margins: list[Margin]  # of every stop limit
-    # rating_head, ratings: the table of what the handbooks allow; without rows where they say
-    # nothing
-    rating_head: list[str]
-    ratings: list[list[str]]
+    ratings: AnswerTable[RatingFinding]  # what the handbooks allow; without rows where they say nothing
     chain_tables: list[HtmlTable]  # what ends first, published rules and events, where a chain wraps it
     tooth: list[Chart]  # the flank before and after
     charts: list[Chart]  # all others
@@ -84,8 +82,7 @@ class ComparisonPage:
 
     names: list[str]  # of the pages and of the drives
     titles: list[str]  # of the pages and of the drives
-    head: list[str]  # the table
-    rows: list[list[str]]  # the table
+    table: AnswerTable[WearResult]
     limits: str  # a warning where limits differ
     warnings: list[tuple[str, str]]  # cases with their warnings
     charts: list[Chart]  # of all drives together
@@ -114,10 +111,9 @@ def case_page(result: WearResult, name: str, brief: bool) -> CasePage:
         high=hours(result.life_high),
         band=result.band,
         percentiles=_percentiles(result, case),
-        findings=[found for found in findings(result) if found[0] not in (BAND, LIMITS, OVERLOADED)],
+        findings=page_findings(result),
         margins=margins(result, case),
-        rating_head=RATING_HEAD,
-        ratings=rating_cells(result.ratings),
+        ratings=ratings_table(result.ratings),
         chain_tables=chain_tables(result.ends, result.practice, result.events),
         tooth=tooth,
         charts=charts,
@@ -179,14 +175,13 @@ def _charts(result: WearResult, case: Case) -> list[Chart]:
 def comparison_page(results: Sequence[WearResult], names: Sequence[str]) -> ComparisonPage:
     """Return the page that compares several drives."""
     several = list(results)
-    head, rows = comparison_cells(several)
+    table = comparison_table(several)
     charts = [lives_chart(several, names), along_chart(several, names), history_chart(several, names)]
     figures = comparison_figures(several, {chart.still for chart in charts})
     return ComparisonPage(
         names=list(names),
         titles=[result.title for result in several],
-        head=head,
-        rows=rows,
+        table=table,
         limits=differing_limits(several),
         warnings=[(result.title, text) for result in several for text in result.warnings],
         charts=charts,

@@ -3,19 +3,30 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
+from wearsim.case.input_origins import InputRow, input_rows
 from wearsim.errors import OutputError
 from wearsim.extras import library
 from wearsim.files import check_free, write_file
 from wearsim.report.workbook.answer_page import write_answer_page
-from wearsim.report.workbook.inputs_page import write_inputs_page
 from wearsim.report.workbook.native_charts import add_charts
 from wearsim.report.workbook.result_page import write_result_page
-from wearsim.report.workbook.workbook_writer import WorkbookWriter
+from wearsim.report.workbook.workbook_writer import HEADER, WorkbookWriter, WorksheetPage, number_format
 from wearsim.report.workbook.worksheet_names import worksheet_names
 from wearsim.result import WearResult
 
 _FIRST_CHART_ROW = 1
+_INPUT_COLUMNS = {
+    "case": 20,
+    "key": 40,
+    "value": 22,
+    "unit": 12,
+    "origin": 10,
+    "why or source": 60,
+    "meaning": 60,
+}
+_UNIT = list(_INPUT_COLUMNS).index("unit")
 
 
 def check_workbook(path: Path, force: bool) -> None:
@@ -43,7 +54,7 @@ def workbook(results: Sequence[WearResult], said: Said = MappingProxyType({})) -
         add_charts(book, own, [place], (_FIRST_CHART_ROW, place.right))
         places.append(place)
     add_charts(book, page, places, (_FIRST_CHART_ROW, free_column))
-    write_inputs_page(book, inputs, results, names)
+    _write_inputs(book, inputs, results, names)
     return book.content()
 
 
@@ -53,3 +64,38 @@ def save_workbook(
     """Write results into a workbook, all of it or nothing."""
     check_workbook(path, force)
     write_file(path, workbook(results, said), force)
+
+
+def _write_inputs(
+    book: WorkbookWriter, name: str, results: Sequence[WearResult], labels: Sequence[str]
+) -> None:
+    """Write the sheet of inputs, a row for every key of every case."""
+    page = WorksheetPage(book, name)
+    for column, (title, width) in enumerate(_INPUT_COLUMNS.items()):
+        page.sheet.set_column(column, column, width)
+        page.put(0, column, title, **HEADER)
+    page.freeze(1)
+    row = 0
+    for result, label in zip(results, labels, strict=True):
+        for found in input_rows(result.inputs, result.assumptions):
+            row += 1
+            _write_input(page, row, label, found)
+    page.sheet.autofilter(0, 0, row, len(_INPUT_COLUMNS) - 1)
+
+
+def _write_input(page: WorksheetPage, row: int, label: str, found: InputRow) -> None:
+    value = _cell(found.value)
+    style: dict[str, Any] = {"valign": "top", "text_wrap": True}
+    cells = (label, found.key, value, found.unit, found.origin, found.why, found.meaning)
+    for column, cell in enumerate(cells):
+        indent = {"align": "left", "indent": 1} if column == _UNIT else {}
+        page.put(row, column, cell, num_format=number_format([cell]), **indent, **style)
+    texts = zip(cells, _INPUT_COLUMNS.values(), strict=True)
+    page.fit_height(row, [(cell, width) for cell, width in texts if isinstance(cell, str)])
+
+
+def _cell(value: Any) -> Any:
+    """Value for a cell; numbers of a list in one text."""
+    if isinstance(value, list | tuple):
+        return ", ".join(str(entry) for entry in value)
+    return value

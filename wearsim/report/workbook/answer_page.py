@@ -108,7 +108,7 @@ def _answers(results: Sequence[WearResult]) -> dict[str, list[Any]]:
         if not name.endswith(_AT_LEAST) or any(value is not None for value in values):
             rows[name] = values
     if len(results) > 1:
-        rows["ratio_to_first"] = comparison_table(list(results))["ratio_to_first"].tolist()
+        rows["ratio_to_first"] = [row["ratio_to_first"] for row in comparison_table(results).records()]
     return rows
 
 

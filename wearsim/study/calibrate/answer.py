@@ -14,14 +14,16 @@ from wearsim.extras import check_installed
 from wearsim.geometry.measured.registration import Freedom
 from wearsim.quantities import grouped
 from wearsim.readings.dated_rows import readings_file
-from wearsim.report.public_answer import DrawnAnswer, table_of
+from wearsim.report.public_answer import DrawnAnswer
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
 from wearsim.study.calibrate.model import calibrate as fitted
 from wearsim.study.calibrate.sheet import (
+    calibration_files,
     calibration_json,
     calibration_text,
+    parts_table,
     readings_table,
-    write_calibration,
+    values_table,
 )
 
 if TYPE_CHECKING:
@@ -44,6 +46,8 @@ class CalibrationResult(DrawnAnswer):
     found : Calibration
         Values, intervals and residuals as objects.
     """
+
+    _tables = ("parts", "values", "readings")
 
     found: Calibration
 
@@ -70,36 +74,19 @@ class CalibrationResult(DrawnAnswer):
     @property
     def values(self) -> "pd.DataFrame":
         """What was fitted, with the ends of its intervals."""
-        return table_of(self.summary()["values"])
+        return values_table(self.found).frame()
 
     @property
     def parts(self) -> "pd.DataFrame":
         """Life and hours left of sprocket and chain, with the ends of their intervals."""
-        return table_of(self.summary()["parts"])
+        return parts_table(self.found).frame()
 
     @property
     def readings(self) -> "pd.DataFrame":
         """Every reading beside its prediction."""
-        return readings_table(self.found)
+        return readings_table(self.found).frame()
 
-    def tables(self) -> "dict[str, pd.DataFrame]":
-        """Return parts, fitted values and readings.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``parts``, ``values``, ``readings``.
-        """
-        return {"parts": self.parts, "values": self.values, "readings": self.readings}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim calibrate --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return calibration_json(self.found)
 
     def pictures(self) -> "dict[str, Figure]":
@@ -114,8 +101,14 @@ class CalibrationResult(DrawnAnswer):
 
         return calibration_figures(self.found)
 
+    def _files(self) -> Mapping[str, str]:
+        return calibration_files(self.found)
+
     def _write(self, place: Path) -> None:
-        write_calibration(self.found, place)
+        super()._write(place)
+        for path in self.found.case.files:
+            (place / "inputs").mkdir(exist_ok=True)
+            (place / "inputs" / path.name).write_bytes(path.read_bytes())
 
 
 def calibrate(

@@ -1,20 +1,17 @@
 """What is shown of a calibration: text, JSON, tables, and the case with the fitted values."""
 
-from collections.abc import Mapping
-from dataclasses import asdict
-from pathlib import Path
+from itertools import starmap
 from typing import Any
-
-import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.readings.relubrications import relubrication_rows
-from wearsim.report.study_files import plain
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.answer_table import AnswerTable, Column
+from wearsim.report.text_lines import Finding, answer_text, closing, fenced
 from wearsim.result.folder import with_files
 from wearsim.study.calibrate.calibration import Calibration, FittedCoefficient, PartLife
 from wearsim.study.calibrate.least_squares import ConfidenceInterval
+from wearsim.study.calibrate.observations import ReadingResidual
 
 
 def calibration_text(found: Calibration) -> str:
@@ -23,19 +20,19 @@ def calibration_text(found: Calibration) -> str:
     rows = []
     for part in found.parts:
         rows += [
-            (
+            Finding(
                 "Remaining",
                 f"{_hours(part.remaining)} of the {part.name} after {_hours(part.hours)}   "
                 f"({share}: {_ends(part.band, grouped)} h)",
             ),
-            (
+            Finding(
                 "Life",
                 f"{_hours(part.life)} of the {part.name} in all   "
                 f"({share}: {_ends(part.interval, grouped)} h)",
             ),
         ]
     rows += [
-        (
+        Finding(
             "Fitted",
             f"{value.key} = {value.value:.4g}   ({share}: {_ends(value.interval, _digits)}), "
             f"{value.value / value.in_case:.3g} times the case's"
@@ -45,20 +42,19 @@ def calibration_text(found: Calibration) -> str:
     ]
     widened = f", errors taken {found.scale:.3g} times as large" if found.scale > 1.0 else ""
     rows += [
-        (
+        Finding(
             "Fit",
             f"{found.readings} readings, chi-square {found.chi_square:.4g} with {found.freedom} degrees "
             f"of freedom{widened}",
         ),
-        *relubrication_rows(found.relubrications),
+        *starmap(Finding, relubrication_rows(found.relubrications)),
         *(
-            ("Moved", f"profile of line {line} by {turn:.3g} rad, {x:.3g} and {y:.3g} mm")
+            Finding("Moved", f"profile of line {line} by {turn:.3g} rad, {x:.3g} and {y:.3g} mm")
             for line, turn, x, y in found.moves
         ),
-        ("Assumes", numbered_assumptions(found.assumptions)),
-        ("Warnings", "; ".join(found.warnings) or "none"),
+        *closing(found.assumptions, found.warnings),
     ]
-    return "\n".join([found.case.title, *(row(label, text) for label, text in rows)])
+    return answer_text(found.case.title, *rows)
 
 
 def calibration_json(found: Calibration) -> dict[str, Any]:
@@ -68,8 +64,8 @@ def calibration_json(found: Calibration) -> dict[str, Any]:
         "case": found.case.name,
         "title": found.case.title,
         "confidence": found.options.confidence,
-        "values": [{name: plain(value) for name, value in _value(one).items()} for one in found.values],
-        "parts": [_part(part) for part in found.parts],
+        "values": values_table(found).records(),
+        "parts": parts_table(found).records(),
         "moves": [
             dict(zip(("reading_row", "turn_rad", "shift_x_mm", "shift_y_mm"), one, strict=True))
             for one in found.moves
@@ -85,43 +81,63 @@ def calibration_json(found: Calibration) -> dict[str, Any]:
     }
 
 
-def readings_table(found: Calibration) -> pd.DataFrame:
+def readings_table(found: Calibration) -> AnswerTable[ReadingResidual]:
     """Return every value beside its prediction."""
-    return pd.DataFrame(
-        {
-            "reading_row": one.row,
-            "time_hours": one.hours,
-            "quantity": one.quantity,
-            "arc_length_mm": one.arc_length,
-            "value": one.value,
-            "predicted": one.predicted,
-            "error": one.error,
-            "standard_residual": one.residual,
-        }
-        for one in found.shown
+    return AnswerTable(
+        [
+            Column("reading_row", lambda one: one.row),
+            Column("time_hours", lambda one: one.hours),
+            Column("quantity", lambda one: one.quantity),
+            Column("arc_length_mm", lambda one: one.arc_length),
+            Column("value", lambda one: one.value),
+            Column("predicted", lambda one: one.predicted),
+            Column("error", lambda one: one.error),
+            Column("standard_residual", lambda one: one.residual),
+        ],
+        found.shown,
     )
 
 
-def values_table(found: Calibration) -> pd.DataFrame:
+def values_table(found: Calibration) -> AnswerTable[FittedCoefficient]:
     """Return the fitted values."""
-    return pd.DataFrame([_value(one) for one in found.values])
+    return AnswerTable(
+        [
+            Column("key", lambda one: one.key),
+            Column("value", lambda one: one.value),
+            Column("given", lambda one: one.in_case),
+            Column("low", lambda one: _known(one.interval)[0]),
+            Column("high", lambda one: _known(one.interval)[1]),
+            Column("holds_at", lambda one: one.holds_at),
+        ],
+        found.values,
+    )
 
 
-def write_calibration(found: Calibration, place: Path) -> None:
-    """Write tables, pictures and the case with the fitted values into a folder."""
-    from wearsim.report.figures import save_figure
-    from wearsim.study.calibrate.figure import calibration_figures
+def parts_table(found: Calibration) -> AnswerTable[PartLife]:
+    """Return life and hours left of each part."""
+    return AnswerTable(
+        [
+            Column("part", lambda one: one.name),
+            Column("reading_hours", lambda one: one.hours),
+            Column("life_hours", lambda one: one.life),
+            Column("life_hours_low", lambda one: _known(one.interval)[0]),
+            Column("life_hours_high", lambda one: _known(one.interval)[1]),
+            Column("remaining_hours", lambda one: one.remaining),
+            Column("remaining_hours_low", lambda one: _known(one.band)[0]),
+            Column("remaining_hours_high", lambda one: _known(one.band)[1]),
+        ],
+        found.parts,
+    )
 
-    readings_table(found).to_csv(place / "fit.csv", index=False)
-    values_table(found).to_csv(place / "fitted_values.csv", index=False)
-    summary = f"```\n{calibration_text(found)}\n```\n"
-    (place / "summary.md").write_text(summary, encoding="utf-8")
-    (place / "calibrated.toml").write_text(_case(found), encoding="utf-8")
-    for path in found.case.files:
-        (place / "inputs").mkdir(exist_ok=True)
-        (place / "inputs" / path.name).write_bytes(path.read_bytes())
-    for name, figure in calibration_figures(found).items():
-        save_figure(figure, place, name)
+
+def calibration_files(found: Calibration) -> dict[str, str]:
+    """Return tables, summary and the case with the fitted values, each as the content of a file."""
+    return {
+        "fit.csv": readings_table(found).csv(),
+        "fitted_values.csv": values_table(found).csv(),
+        "summary.md": fenced(calibration_text(found)),
+        "calibrated.toml": _case(found),
+    }
 
 
 def _case(found: Calibration) -> str:
@@ -134,35 +150,9 @@ def _case(found: Calibration) -> str:
     return tomlkit.dumps(document)
 
 
-def _value(one: FittedCoefficient) -> Mapping[str, Any]:
-    known = _known(one.interval)
-    return {
-        "key": one.key,
-        "value": one.value,
-        "given": one.in_case,
-        "low": known["low"],
-        "high": known["high"],
-        "holds_at": one.holds_at,
-    }
-
-
-def _part(part: PartLife) -> Mapping[str, Any]:
-    left, life = _known(part.band), _known(part.interval)
-    return {
-        "part": part.name,
-        "reading_hours": part.hours,
-        "life_hours": part.life,
-        "life_hours_low": life["low"],
-        "life_hours_high": life["high"],
-        "remaining_hours": part.remaining,
-        "remaining_hours_low": left["low"],
-        "remaining_hours_high": left["high"],
-    }
-
-
-def _known(interval: ConfidenceInterval) -> dict[str, float | None]:
-    ends = asdict(interval)
-    return {end: ends[end] if ends[f"{end}_known"] else None for end in ("low", "high")}
+def _known(interval: ConfidenceInterval) -> tuple[float | None, float | None]:
+    """Return the ends of an interval that the data give."""
+    return interval.low if interval.low_known else None, interval.high if interval.high_known else None
 
 
 def _hours(value: float) -> str:

@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.errors import Allowed, Range, check_ranges
@@ -15,11 +14,11 @@ from wearsim.study.judge.series_file import read_series
 from wearsim.study.judge.sheet import (
     constants_table,
     forecasts_table,
+    judgement_files,
     judgement_json,
     judgement_text,
     laws_table,
     verdict,
-    write_judgement,
 )
 
 if TYPE_CHECKING:
@@ -40,6 +39,8 @@ class JudgementResult(DrawnAnswer):
     data : str
         Name of the file of the readings; ``readings.csv`` for those in no file.
     """
+
+    _tables = ("laws", "constants", "forecasts")
 
     found: Judgement
     data: str
@@ -62,7 +63,7 @@ class JudgementResult(DrawnAnswer):
     @property
     def laws(self) -> "pd.DataFrame":
         """A row for each law and kind of scatter: its score, its bands, whether it is told from the best."""
-        return laws_table(self.found)
+        return laws_table(self.found).frame()
 
     @property
     def constants(self) -> "pd.DataFrame":
@@ -74,24 +75,7 @@ class JudgementResult(DrawnAnswer):
         """Every reading beside the bands of the best law."""
         return forecasts_table(self.found)
 
-    def tables(self) -> "dict[str, pd.DataFrame]":
-        """Return laws, constants and forecasts.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``laws``, ``constants``, ``forecasts``.
-        """
-        return {"laws": self.laws, "constants": self.constants, "forecasts": self.forecasts}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim judge --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return judgement_json(self.found, self.data)
 
     def pictures(self) -> "dict[str, Figure]":
@@ -106,8 +90,8 @@ class JudgementResult(DrawnAnswer):
 
         return {"judgement": judgement_figure(self.found, self.title)}
 
-    def _write(self, place: Path) -> None:
-        write_judgement(self.found, self.title, place)
+    def _files(self) -> Mapping[str, str]:
+        return judgement_files(self.found)
 
 
 def judge(

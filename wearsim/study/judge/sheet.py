@@ -1,14 +1,14 @@
 """What is shown of a judgement: text, JSON and tables."""
 
 import math
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
-from wearsim.report.study_files import plain
-from wearsim.report.text_lines import numbered_assumptions, row, table_lines
+from wearsim.report.answer_table import AnswerTable, Column, csv_of
+from wearsim.report.text_lines import Finding, answer_text, closing, fenced
 from wearsim.study.judge.model import FittedConstant, JudgedLaw, Judgement
 
 ASSUMPTIONS = (
@@ -23,17 +23,16 @@ def judgement_text(found: Judgement) -> str:
     data, taken = found.data, found.simplest
     held = int(data.held_out.sum())
     rows = [
-        ("Readings", f"{data.wear.size} in {len(data.names)} series; {held} held out to judge by"),
-        ("Best law", _described(found.best)),
-        ("As good", ", ".join(found.ties[1:]) or "none: the readings tell it from all others"),
-        *([("Take", f"{_described(taken)}, the simplest of them")] if taken is not found.best else []),
-        *([("Constants", "; ".join(map(_constant, taken.constants)))] if taken.constants else []),
-        ("Scatter", "; ".join(map(_constant, taken.deviations)) + ", of ln(wear)"),
-        ("Verdict", verdict(found)),
-        ("Assumes", numbered_assumptions(ASSUMPTIONS)),
-        ("Warnings", "; ".join(data.warnings) or "none"),
+        Finding("Readings", f"{data.wear.size} in {len(data.names)} series; {held} held out to judge by"),
+        Finding("Best law", _described(found.best)),
+        Finding("As good", ", ".join(found.ties[1:]) or "none: the readings tell it from all others"),
+        *([Finding("Take", f"{_described(taken)}, the simplest of them")] if taken is not found.best else []),
+        *([Finding("Constants", "; ".join(map(_constant, taken.constants)))] if taken.constants else []),
+        Finding("Scatter", "; ".join(map(_constant, taken.deviations)) + ", of ln(wear)"),
+        Finding("Verdict", verdict(found)),
+        *closing(ASSUMPTIONS, data.warnings),
     ]
-    return "\n".join([*(row(label, text) for label, text in rows), "", *_table(found)])
+    return answer_text(*rows, "", laws_table(found))
 
 
 def verdict(found: Judgement) -> str:
@@ -54,30 +53,9 @@ def _constant(one: FittedConstant) -> str:
     return f"{one.name} = {one.middle:.3g} ({one.low:.3g} to {one.high:.3g})"
 
 
-_HEAD = ("law", "scatter", "score", "behind", "+-", "in 50 %", "in 90 %", "off by")
-
-
-def _table(found: Judgement) -> list[str]:
-    return [f"  {line}" for line in table_lines([_HEAD, *(_cells(one) for one in found.laws)], words=2)]
-
-
-def _cells(one: JudgedLaw) -> tuple[str, ...]:
-    error = f"{one.behind_error:.2f}" if math.isfinite(one.behind_error) else "?"
-    shares = (_percent(one.coverage_50), _percent(one.coverage_90), _factor(one.median_error))
-    return one.law, one.scatter, f"{one.score:.2f}", f"{one.behind:.2f}", error, *shares
-
-
-def _factor(ln_error: float) -> str:
-    return "" if math.isnan(ln_error) else f"{math.exp(ln_error):.2f}"
-
-
-def _percent(share: float) -> str:
-    return "" if math.isnan(share) else f"{100 * share:.0f} %"
-
-
 def judgement_json(found: Judgement, source: str) -> dict[str, Any]:
     """Return the answer as ``wearsim judge --json`` prints it."""
-    data = found.data
+    data, laws = found.data, laws_table(found).records()
     return {
         **ANSWER_HEAD,
         "data": source,
@@ -91,33 +69,41 @@ def judgement_json(found: Judgement, source: str) -> dict[str, Any]:
         "take": found.simplest.law,
         "good_enough": not found.objections,
         "objections": list(found.objections),
-        "laws": [_law(one) for one in found.laws],
+        "laws": [_law(one, numbers) for one, numbers in zip(found.laws, laws, strict=True)],
         "assumptions": list(ASSUMPTIONS),
         "warnings": list(data.warnings),
     }
 
 
-def _law(one: JudgedLaw) -> dict[str, Any]:
-    numbers = {name: plain(getattr(one, name)) for name in _NUMBERS}
+def _law(one: JudgedLaw, numbers: Mapping[str, Any]) -> dict[str, Any]:
     constants = [vars(constant) for constant in (*one.constants, *one.deviations)]
-    names = {"law": one.law, "formula": one.formula, "scatter": one.scatter}
-    return {**names, **numbers, "tied": one.tied, "constants": constants}
+    return {"law": one.law, "formula": one.formula, **numbers, "constants": constants}
 
 
-_NUMBERS = ("score", "behind", "behind_error", "coverage_50", "coverage_90", "median_error")
-
-
-def laws_table(found: Judgement) -> pd.DataFrame:
+def laws_table(found: Judgement) -> AnswerTable[JudgedLaw]:
     """Return a row for each law and kind of scatter."""
-    return pd.DataFrame(
-        {
-            "law": one.law,
-            "scatter": one.scatter,
-            **{name: plain(getattr(one, name)) for name in _NUMBERS},
-            "tied": one.tied,
-        }
-        for one in found.laws
+    return AnswerTable(
+        [
+            Column("law", lambda one: one.law, "law", side="<"),
+            Column("scatter", lambda one: one.scatter, "scatter", side="<"),
+            Column("score", lambda one: one.score, "score", "{:.2f}"),
+            Column("behind", lambda one: one.behind, "behind", "{:.2f}"),
+            Column("behind_error", lambda one: one.behind_error, "+-", "{:.2f}", missing="?"),
+            Column("coverage_50", lambda one: one.coverage_50, "in 50 %", _percent, missing=""),
+            Column("coverage_90", lambda one: one.coverage_90, "in 90 %", _percent, missing=""),
+            Column("median_error", lambda one: one.median_error, "off by", _factor, missing=""),
+            Column("tied", lambda one: one.tied),
+        ],
+        found.laws,
     )
+
+
+def _factor(ln_error: float) -> str:
+    return f"{math.exp(ln_error):.2f}"
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.0f} %"
 
 
 def constants_table(found: Judgement) -> pd.DataFrame:
@@ -144,14 +130,11 @@ def forecasts_table(found: Judgement) -> pd.DataFrame:
     )
 
 
-def write_judgement(found: Judgement, title: str, place: Path) -> None:
-    """Write tables and the picture into a folder."""
-    from wearsim.report.figures import save_figure
-    from wearsim.study.judge.figure import judgement_figure
-
-    laws_table(found).to_csv(place / "laws.csv", index=False)
-    constants_table(found).to_csv(place / "constants.csv", index=False)
-    forecasts_table(found).to_csv(place / "forecasts.csv", index=False)
-    summary = f"```\n{judgement_text(found)}\n```\n"
-    (place / "summary.md").write_text(summary, encoding="utf-8")
-    save_figure(judgement_figure(found, title), place, "judgement")
+def judgement_files(found: Judgement) -> dict[str, str]:
+    """Return tables and summary, each as the content of a file."""
+    return {
+        "laws.csv": laws_table(found).csv(),
+        "constants.csv": csv_of(constants_table(found)),
+        "forecasts.csv": csv_of(forecasts_table(found)),
+        "summary.md": fenced(judgement_text(found)),
+    }

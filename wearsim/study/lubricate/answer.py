@@ -1,16 +1,17 @@
 """When to lubricate again, and which lubricant pays."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.quantities import grouped
-from wearsim.report.public_answer import DrawnAnswer, table_of
+from wearsim.report.answer_table import csv_of, table_of
+from wearsim.report.public_answer import DrawnAnswer
 from wearsim.runner.in_threads import Progress, silent
 from wearsim.study.lubricate.model import LubricationStudy
 from wearsim.study.lubricate.runs import compare_intervals
-from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows, write_lubrication
+from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,6 +27,8 @@ class LubricationResult(DrawnAnswer):
     study : LubricationStudy
         Lubricants, their intervals, the cheapest one.
     """
+
+    _tables = ("intervals", "lubricants")
 
     study: LubricationStudy
 
@@ -57,26 +60,9 @@ class LubricationResult(DrawnAnswer):
     @property
     def lubricants(self) -> "pd.DataFrame":
         """A row for each lubricant: how long it lasts, the cheapest interval, what a missed one costs."""
-        return table_of(self.summary()["lubricants"])
+        return table_of(self._content()["lubricants"])
 
-    def tables(self) -> "dict[str, pd.DataFrame]":
-        """Return intervals and lubricants.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``intervals``, ``lubricants``.
-        """
-        return {"intervals": self.intervals, "lubricants": self.lubricants}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim lubricate --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return lubrication_json(self.study)
 
     def pictures(self) -> "dict[str, Figure]":
@@ -91,8 +77,8 @@ class LubricationResult(DrawnAnswer):
 
         return {"lubrication": lubrication_figure(self.study)}
 
-    def _write(self, place: Path) -> None:
-        write_lubrication(self.study, place)
+    def _files(self) -> Mapping[str, str]:
+        return {"intervals.csv": csv_of(self.intervals), "lubrication.txt": f"{self.text}\n"}
 
 
 def lubricate(case: CaseInput, *, progress: Progress = silent) -> LubricationResult:

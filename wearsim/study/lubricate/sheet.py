@@ -2,14 +2,13 @@
 
 import math
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.study_files import plain
-from wearsim.report.text_lines import numbered_assumptions, row, table_lines
-from wearsim.study.lubricate.intervals import MissedRelubrication, RelubricationPolicy
+from wearsim.report.answer_table import AnswerTable, Column, plain
+from wearsim.report.text_lines import Finding, answer_text, closing
+from wearsim.study.lubricate.intervals import MissedRelubrication, RelubricationPolicy, WornPart
 from wearsim.study.lubricate.model import LubricantPlan, LubricationStudy
 
 _AT_THE_EDGE = (
@@ -19,30 +18,40 @@ _AT_THE_EDGE = (
 
 def policy_rows(study: LubricationStudy) -> list[dict[str, Any]]:
     """Return a row for every lubricant and interval, in the units of the columns."""
-    return [
-        {
-            "lubricant": plan.name,
-            "interval_hours": plain(policy.interval),
-            "interval_km": plain(policy.interval * (study.km_per_hour or math.inf)),
-            "mean_wear_factor": policy.wear_factor,
-            **_lives(plan, policy),
-            "relubrications_per_1000_h": 1000.0 / policy.interval,
-            "cost_per_1000_h": policy.cost,
-            "cost_low_per_1000_h": policy.cost_low,
-            "cost_high_per_1000_h": policy.cost_high,
-        }
-        for plan in study.plans
-        for policy in plan.policies
-    ]
+    return [row for plan in study.plans for row in _policies(study, plan).records()]
 
 
-def _lives(plan: LubricantPlan, policy: RelubricationPolicy) -> dict[str, Any]:
-    columns = {}
-    for part in plan.parts:
-        for end, lives in (("", policy.lives), ("_low", policy.lives_low), ("_high", policy.lives_high)):
-            columns[f"{part.name}_life{end}_hours"] = lives[part.name]
-        columns[f"{part.name}_life_reached"] = part.reached
-    return columns
+def _policies(study: LubricationStudy, plan: LubricantPlan) -> AnswerTable[RelubricationPolicy]:
+    """Return a row for every interval of a lubricant."""
+    return AnswerTable(
+        [
+            Column("lubricant", lambda _: plan.name),
+            Column("interval_hours", lambda one: one.interval),
+            Column("interval_km", lambda one: one.interval * (study.km_per_hour or math.inf)),
+            Column("", lambda one: _interval(study, one.interval) + _mark(plan, one), "interval"),
+            Column("mean_wear_factor", lambda one: one.wear_factor),
+            *(column for part in plan.parts for column in _lives(part)),
+            Column("", lambda one: one.wear_factor, "wear factor", "{:.3g}"),
+            Column("relubrications_per_1000_h", lambda one: 1000.0 / one.interval),
+            Column("cost_per_1000_h", lambda one: one.cost, "cost per 1000 h", grouped),
+            Column("cost_low_per_1000_h", lambda one: one.cost_low),
+            Column("cost_high_per_1000_h", lambda one: one.cost_high),
+        ],
+        plan.policies,
+    )
+
+
+def _lives(part: WornPart) -> Iterator[Column[RelubricationPolicy]]:
+    name, form = part.name, "{} h" if part.reached else "> {} h"
+    yield Column(f"{name}_life_hours", lambda one: one.lives[name], name, lambda at: form.format(grouped(at)))
+    yield Column(f"{name}_life_low_hours", lambda one: one.lives_low[name])
+    yield Column(f"{name}_life_high_hours", lambda one: one.lives_high[name])
+    yield Column(f"{name}_life_reached", lambda _: part.reached)
+
+
+def _mark(plan: LubricantPlan, policy: RelubricationPolicy) -> str:
+    """Return what marks the interval that a lubricant has."""
+    return " *" if policy is plan.own or (plan.own and policy.interval == plan.own.interval) else ""
 
 
 def lubrication_json(study: LubricationStudy) -> dict[str, Any]:
@@ -82,21 +91,20 @@ def _plan_json(plan: LubricantPlan) -> dict[str, Any]:
 
 def lubrication_text(study: LubricationStudy) -> str:
     """Return the study as ``wearsim lubricate`` prints it."""
-    lines = [study.title]
+    parts: list[object] = [study.title]
     for plan in study.plans:
-        lines += ["", *_plan_lines(study, plan)]
-    lines.append("")
+        parts += ["", *_plan_parts(study, plan)]
+    return answer_text(*parts, "", *_pays(study), *closing(study.assumptions, study.warnings))
+
+
+def _pays(study: LubricationStudy) -> Iterator[Finding]:
+    """Say which of several lubricants pays."""
     best = study.cheapest
     if best is not None and len(study.plans) > 1:
-        lines.append(
-            row("Pays", "; ".join([f"{_named(best)}, {_advice(study, best)}", *_without_oil(study)]))
-        )
+        yield Finding("Pays", "; ".join([f"{_named(best)}, {_advice(study, best)}", *_without_oil(study)]))
     elif best is None and len(study.plans) > len(study.untold) > 0:
         unknown = "; ".join(f"{_named(plan)} ({plan.unknown})" for plan in study.untold)
-        lines.append(row("Pays", f"not told, as no least cost is known for {unknown}"))
-    lines.append(row("Assumes", numbered_assumptions(study.assumptions)))
-    lines.append(row("Warnings", "; ".join(study.warnings) or "none"))
-    return "\n".join(lines)
+        yield Finding("Pays", f"not told, as no least cost is known for {unknown}")
 
 
 def _named(plan: LubricantPlan) -> str:
@@ -115,18 +123,16 @@ def _without_oil(study: LubricationStudy) -> Iterator[str]:
             yield f"{plan.name} pays where its oil costs less than {grouped(left)} per 1000 h"
 
 
-def _plan_lines(study: LubricationStudy, plan: LubricantPlan) -> Iterator[str]:
-    yield row("Lubricant", _effect(study, plan))
-    yield from _policy_table(study, plan)
+def _plan_parts(study: LubricationStudy, plan: LubricantPlan) -> Iterator[object]:
+    yield Finding("Lubricant", _effect(study, plan))
+    yield _policies(study, plan)
     if plan.supplied:
-        yield row("Cost", plan.unknown or _advice(study, plan))
+        yield Finding("Cost", plan.unknown or _advice(study, plan))
         return
-    if plan.cheapest is not None:
-        yield row("Cheapest", _advice(study, plan))
-    else:
-        yield row("Cheapest", f"no interval: {plan.unknown}")
+    advice = f"no interval: {plan.unknown}" if plan.cheapest is None else _advice(study, plan)
+    yield Finding("Cheapest", advice)
     if plan.missed is not None:
-        yield row("Missed", _missed(study, plan.missed))
+        yield Finding("Missed", _missed(study, plan.missed))
 
 
 def _effect(study: LubricationStudy, plan: LubricantPlan) -> str:
@@ -138,12 +144,6 @@ def _effect(study: LubricationStudy, plan: LubricantPlan) -> str:
         f"{_named(plan)}: lasts {grouped(plan.lasts)} h{way}{fades}; dry contacts wear {plan.dry_factor:g} "
         "times as fast"
     )
-
-
-def _policy_table(study: LubricationStudy, plan: LubricantPlan) -> Iterator[str]:
-    head = ["interval", *(part.name for part in plan.parts), "wear factor", "cost per 1000 h"]
-    cells = [[*_cells(study, plan, policy)] for policy in plan.policies]
-    yield from (f"  {line}" for line in table_lines([head, *cells]))
 
 
 def _missed(study: LubricationStudy, missed: MissedRelubrication) -> str:
@@ -183,24 +183,3 @@ def _interval(study: LubricationStudy, interval: float) -> str:
         return "all the time"
     way = f" ({grouped(interval * study.km_per_hour)} km)" if study.km_per_hour else ""
     return f"{grouped(interval)} h{way}"
-
-
-def _cells(study: LubricationStudy, plan: LubricantPlan, policy: RelubricationPolicy) -> Iterator[str]:
-    mark = " *" if policy is plan.own or (plan.own and policy.interval == plan.own.interval) else ""
-    yield _interval(study, policy.interval) + mark
-    for part in plan.parts:
-        yield f"{'' if part.reached else '> '}{grouped(policy.lives[part.name])} h"
-    yield f"{policy.wear_factor:.3g}"
-    yield "-" if policy.cost is None else grouped(policy.cost)
-
-
-def write_lubrication(study: LubricationStudy, place: Path) -> None:
-    """Write table and picture into a folder."""
-    import pandas as pd
-
-    from wearsim.report.figures import save_figure
-    from wearsim.study.lubricate.figure import lubrication_figure
-
-    pd.DataFrame(policy_rows(study)).to_csv(place / "intervals.csv", index=False)
-    (place / "lubrication.txt").write_text(lubrication_text(study) + "\n", encoding="utf-8")
-    save_figure(lubrication_figure(study), place, "lubrication")

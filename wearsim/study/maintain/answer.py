@@ -3,19 +3,19 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
 from wearsim.drive.case_input import CaseInput, loaded, with_table
 from wearsim.drive.life import drive_life
 from wearsim.drive.maintenance import DrivePlan, drive_plan
-from wearsim.report.drive.plan_sheet import plan_json, plan_text, write_plan
-from wearsim.report.public_answer import DrawnAnswer, table_of
+from wearsim.report.answer_table import table_of
+from wearsim.report.drive.plan_sheet import plan_files, plan_json, plan_text
+from wearsim.report.public_answer import DrawnAnswer
 from wearsim.runner.in_threads import Progress, silent
 from wearsim.study.maintain.model import MaintenancePlan
 from wearsim.study.maintain.model import maintain as compare_policies
-from wearsim.study.maintain.sheet import maintenance_json, maintenance_text, write_maintenance
+from wearsim.study.maintain.sheet import maintenance_files, maintenance_json, maintenance_text
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,6 +35,8 @@ class MaintenanceResult(DrawnAnswer):
     source : str
         What the case was given as, which the text names; empty where it was no file.
     """
+
+    _tables = ("policies", "tooth_counts", "parts", "schedule")
 
     plan: MaintenancePlan | DrivePlan
     source: str = ""
@@ -88,25 +90,7 @@ class MaintenanceResult(DrawnAnswer):
         policies = self.summary()["policies"]
         return table_of({"policy": row["policy"], **one} for row in policies for one in row.get(name, ()))
 
-    def tables(self) -> "dict[str, pd.DataFrame]":
-        """Return policies and what they rest on.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``policies``, ``tooth_counts``, ``parts``, ``schedule``.
-        """
-        names = ("policies", "tooth_counts", "parts", "schedule")
-        return {name: getattr(self, name) for name in names}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim maintain --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return maintenance_json(self.plan) if isinstance(self.plan, MaintenancePlan) else plan_json(self.plan)
 
     def pictures(self) -> "dict[str, Figure]":
@@ -123,11 +107,10 @@ class MaintenanceResult(DrawnAnswer):
 
         return {"maintenance": maintenance_figure(self.plan)}
 
-    def _write(self, place: Path) -> None:
+    def _files(self) -> Mapping[str, str]:
         if isinstance(self.plan, MaintenancePlan):
-            write_maintenance(self.plan, place)
-        else:
-            write_plan(self.plan, self.text, place)
+            return maintenance_files(self.plan)
+        return plan_files(self.plan, self.text)
 
 
 def maintain(

@@ -1,55 +1,57 @@
 """Policies of maintenance side by side: text, JSON, CSV files and a picture."""
 
-from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.text_lines import numbered_assumptions, row, table_lines
-from wearsim.result import Life, LowerBound, life_keys
-from wearsim.result.lives import hours
+from wearsim.report.answer_table import AnswerTable, Column, life_columns
+from wearsim.report.text_lines import answer_text, closing
+from wearsim.result import Life, LowerBound
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
 from wearsim.study.maintain.tooth_count import ToothCount
 
-POLICY_HEAD = ("replace at", "turned", "chain", "chains", "last used", "sprocket", "stops", "cost per 1000 h")
-COUNT_HEAD = ("teeth", "links", "classes", "a tooth meets", "chain", "sprocket")
+
+def policies_table(plan: MaintenancePlan) -> AnswerTable[ReplacementPolicy]:
+    """Return a row for every policy."""
+    return AnswerTable(
+        [
+            Column("replace_at_percent", _percent, "replace at", "{:g} %"),
+            Column("turned", lambda one: one.reversed_, "turned", lambda turned: "yes" if turned else "no"),
+            Column("chain_life_hours", lambda one: one.chain_hours, "chain", lambda at: f"{grouped(at)} h"),
+            Column("chains_per_sprocket", lambda one: one.chains if _reached(one) else None),
+            Column("chains_per_sprocket_at_least", lambda one: None if _reached(one) else one.chains),
+            Column("", lambda one: one.chains if _reached(one) else f"> {one.chains - 1}", "chains"),
+            Column(
+                "last_chain_used",
+                lambda one: one.last_chain_used if _reached(one) else None,
+                "last used",
+                lambda part: f"{100.0 * part:.0f} %",
+            ),
+            *life_columns("sprocket_life_hours", lambda one: one.sprocket, "sprocket"),
+            Column("life_reached", _reached),
+            Column("hours_run", lambda one: one.hours),
+            Column("stops", lambda one: one.stops if _reached(one) else None, "stops"),
+            Column("cost_per_1000_h", lambda one: one.cost, "cost per 1000 h", grouped),
+            Column("numerical_error", lambda one: one.numerical_error),
+        ],
+        plan.policies,
+    )
 
 
-def policy_rows(plan: MaintenancePlan) -> list[dict[str, Any]]:
-    """Return a row for every policy, in the units of the columns."""
-    return [
-        {
-            "replace_at_percent": _percent(policy),
-            "turned": policy.reversed_,
-            "chain_life_hours": policy.chain_hours,
-            "chains_per_sprocket": _known(policy.chains, policy),
-            "chains_per_sprocket_at_least": (None if isinstance(policy.sprocket, Life) else policy.chains),
-            "last_chain_used": _known(policy.last_chain_used, policy),
-            **life_keys("sprocket_life_hours", policy.sprocket),
-            "life_reached": isinstance(policy.sprocket, Life),
-            "hours_run": policy.hours,
-            "stops": _known(policy.stops, policy),
-            "cost_per_1000_h": policy.cost,
-            "numerical_error": policy.numerical_error,
-        }
-        for policy in plan.policies
-    ]
-
-
-def count_rows(plan: MaintenancePlan) -> list[dict[str, Any]]:
+def counts_table(plan: MaintenancePlan) -> AnswerTable[ToothCount]:
     """Return a row for every number of teeth and links."""
-    return [
-        {
-            "teeth": count.meetings.teeth,
-            "links": count.meetings.links,
-            "classes": count.meetings.classes,
-            "same_link_kind": count.meetings.same_link_kind,
-            **life_keys("chain_life_hours", count.lives.get("chain")),
-            **life_keys("sprocket_life_hours", count.lives.get("sprocket")),
-        }
-        for count in plan.counts
-    ]
+    return AnswerTable(
+        [
+            Column("teeth", lambda one: one.meetings.teeth, "teeth"),
+            Column("links", lambda one: one.meetings.links, "links"),
+            Column("classes", lambda one: one.meetings.classes, "classes"),
+            Column("same_link_kind", lambda one: one.meetings.same_link_kind),
+            Column("", _met, "a tooth meets"),
+            *life_columns("chain_life_hours", lambda one: one.lives.get("chain"), "chain"),
+            *life_columns("sprocket_life_hours", lambda one: one.lives.get("sprocket"), "sprocket"),
+        ],
+        plan.counts,
+    )
 
 
 def maintenance_json(plan: MaintenancePlan) -> dict[str, Any]:
@@ -59,9 +61,9 @@ def maintenance_json(plan: MaintenancePlan) -> dict[str, Any]:
         **ANSWER_HEAD,
         "case": plan.case,
         "title": plan.title,
-        "policies": policy_rows(plan),
+        "policies": policies_table(plan).records(),
         "cheapest": None if cheapest is None else plan.policies.index(cheapest),
-        "tooth_counts": count_rows(plan),
+        "tooth_counts": counts_table(plan).records(),
         "assumptions": [*plan.conventions, *plan.assumptions],
         "warnings": list(plan.warnings),
     }
@@ -69,83 +71,48 @@ def maintenance_json(plan: MaintenancePlan) -> dict[str, Any]:
 
 def maintenance_text(plan: MaintenancePlan) -> str:
     """Return the plan as ``wearsim maintain`` prints it."""
-    lines = [plan.title, *_aligned(POLICY_HEAD, [_policy_cells(p) for p in plan.policies])]
-    lines += [f"  {text}" for text in _answers(plan)]
+    parts: list[object] = [plan.title, policies_table(plan), *(f"  {text}" for text in _answers(plan))]
     if plan.counts:
-        lines += ["", f"Teeth and links, chain replaced at {100 * plan.count_limit:g} %"]
-        lines += _aligned(COUNT_HEAD, [_count_cells(count) for count in plan.counts])
-    lines += [
-        "",
-        row("Assumes", numbered_assumptions((*_notes(plan), *plan.assumptions))),
-        row("Warnings", "; ".join(plan.warnings) or "none"),
-    ]
-    return "\n".join(lines)
+        parts += ["", _counts_title(plan), counts_table(plan)]
+    return answer_text(*parts, "", *closing((*_notes(plan), *plan.assumptions), plan.warnings))
 
 
 def maintenance_page(plan: MaintenancePlan) -> str:
     """Return the plan as a page of Markdown."""
-    parts = [f"# {plan.title}", _markdown(POLICY_HEAD, [_policy_cells(p) for p in plan.policies])]
+    parts = [f"# {plan.title}", policies_table(plan).markdown()]
     parts += [*_answers(plan), "![policies](maintenance.svg)"]
     if plan.counts:
-        parts.append(f"## Teeth and links, chain replaced at {100 * plan.count_limit:g} %")
-        parts.append(_markdown(COUNT_HEAD, [_count_cells(count) for count in plan.counts]))
+        parts += [f"## {_counts_title(plan)}", counts_table(plan).markdown()]
     parts.append("\n".join(f"- warning: {text}" for text in plan.warnings) or "No warnings.")
     texts = [*_notes(plan), *plan.assumptions]
     parts.append("\n".join(f"{i}. {text}" for i, text in enumerate(texts, start=1)))
     return "\n\n".join(parts) + "\n"
 
 
-def write_maintenance(plan: MaintenancePlan, place: Path) -> None:
-    """Write tables and picture into a folder."""
-    import pandas as pd
-
-    from wearsim.report.figures import save_figure
-    from wearsim.study.maintain.figure import maintenance_figure
-
-    pd.DataFrame(policy_rows(plan)).to_csv(place / "policies.csv", index=False)
-    if plan.counts:
-        pd.DataFrame(count_rows(plan)).to_csv(place / "tooth_counts.csv", index=False)
-    (place / "maintenance.md").write_text(maintenance_page(plan), encoding="utf-8")
-    save_figure(maintenance_figure(plan), place, "maintenance")
+def maintenance_files(plan: MaintenancePlan) -> dict[str, str]:
+    """Return tables and page, each as the content of a file."""
+    counts = {"tooth_counts.csv": counts_table(plan).csv()} if plan.counts else {}
+    return {"policies.csv": policies_table(plan).csv(), **counts, "maintenance.md": maintenance_page(plan)}
 
 
-def _known(value: float, policy: ReplacementPolicy) -> float | None:
-    """A number of the sprocket's life, None where that is not known."""
-    return value if isinstance(policy.sprocket, Life) else None
+def _reached(policy: ReplacementPolicy) -> bool:
+    return isinstance(policy.sprocket, Life)
 
 
 def _percent(policy: ReplacementPolicy) -> float:
     return float(f"{100.0 * policy.replace_at:.12g}")
 
 
-def _policy_cells(policy: ReplacementPolicy) -> list[str]:
-    reached = isinstance(policy.sprocket, Life)
-    return [
-        f"{_percent(policy):g} %",
-        "yes" if policy.reversed_ else "no",
-        f"{grouped(policy.chain_hours)} h",
-        f"{policy.chains}" if reached else f"> {policy.chains - 1}",
-        f"{100.0 * policy.last_chain_used:.0f} %" if reached else "-",
-        hours(policy.sprocket),
-        f"{policy.stops}" if reached else "-",
-        "-" if policy.cost is None else grouped(policy.cost),
-    ]
+def _counts_title(plan: MaintenancePlan) -> str:
+    return f"Teeth and links, chain replaced at {100 * plan.count_limit:g} %"
 
 
-def _count_cells(count: ToothCount) -> list[str]:
-    meetings, lives = count.meetings, count.lives
-    met = f"{meetings.rollers_per_tooth} of {meetings.links} rollers"
+def _met(count: ToothCount) -> str:
+    meetings = count.meetings
     if meetings.hunts:
-        met = "every roller"
-    elif meetings.same_link_kind:
-        met += ", one kind of link"
-    return [
-        f"{meetings.teeth}",
-        f"{meetings.links}",
-        f"{meetings.classes}",
-        met,
-        *(hours(lives[part]) if part in lives else "-" for part in ("chain", "sprocket")),
-    ]
+        return "every roller"
+    met = f"{meetings.rollers_per_tooth} of {meetings.links} rollers"
+    return f"{met}, one kind of link" if meetings.same_link_kind else met
 
 
 def _answers(plan: MaintenancePlan) -> list[str]:
@@ -177,12 +144,3 @@ def _notes(plan: MaintenancePlan) -> list[str]:
             "of one tooth or two links more are"
         )
     return texts
-
-
-def _aligned(head: Sequence[str], rows: list[list[str]]) -> list[str]:
-    return [f"  {line}" for line in table_lines([head, *rows])]
-
-
-def _markdown(head: Sequence[str], rows: list[list[str]]) -> str:
-    lines = ["| " + " | ".join(row) + " |" for row in (head, *rows)]
-    return "\n".join([lines[0], "|" + "---|" * len(head), *lines[1:]])

@@ -44,6 +44,8 @@ class OptimiseResult(DrawnAnswer):
         Designs and what came of them as objects.
     """
 
+    _tables = ("designs", "candidates")
+
     outcome: OptimiseOutcome
 
     @property
@@ -74,31 +76,14 @@ class OptimiseResult(DrawnAnswer):
     @property
     def designs(self) -> pd.DataFrame:
         """A row for each of the best designs."""
-        return candidates_table(self.outcome, self.outcome.front)
+        return candidates_table(self.outcome, self.outcome.front).frame()
 
     @property
     def candidates(self) -> pd.DataFrame:
         """A row for each design that was tried, the case as given first."""
-        return candidates_table(self.outcome, (self.outcome.unchanged, *self.outcome.candidates))
+        return candidates_table(self.outcome, (self.outcome.unchanged, *self.outcome.candidates)).frame()
 
-    def tables(self) -> dict[str, pd.DataFrame]:
-        """Return the best designs, and all.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``designs``, ``candidates``.
-        """
-        return {"designs": self.designs, "candidates": self.candidates}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim optimise --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return optimise_json(self.outcome)
 
     def pictures(self) -> "dict[str, Figure]":

@@ -1,18 +1,19 @@
 """What is shown of an optimisation: text, JSON, tables, and the best designs as case files."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.study_files import plain, save_figures, save_files
-from wearsim.report.text_lines import counts_by_kind
+from wearsim.report.answer_table import AnswerTable, Column, plain
+from wearsim.report.study_files import save_figures, save_files
+from wearsim.report.text_lines import closing_lists, counts_by_kind
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.optimise.design_files import save_designs
+from wearsim.study.optimise.model import OptimiseStudy
 from wearsim.study.optimise.trials import (
     MAXIMISED,
     Candidate,
@@ -29,32 +30,44 @@ _MAX_SHOWN = 20
 """Designs of a front in the text; the files hold all."""
 
 
-def candidates_table(outcome: OptimiseOutcome, candidates: Sequence[Candidate]) -> pd.DataFrame:
+def candidates_table(outcome: OptimiseOutcome, candidates: Sequence[Candidate]) -> AnswerTable[Candidate]:
     """Return a row for each design."""
     study = outcome.study
-    columns = [
-        "design",
-        *study.space.keys,
-        *study.measures,
-        "life_reached",
-        "stop",
-        *(f"margin_{name}" for name in limit_names(study)),
-        "feasible",
-        "error",
-        "warnings",
-    ]
-    rows = []
-    for one in candidates:
-        row = {"design": one.number, **dict(zip(study.space.keys, one.values, strict=True))}
-        row |= dict(one.measures)
-        if not one.error:
-            row |= {f"margin_{name}": value for name, value in margins(study, one).items()}
-        rows.append(
-            row
-            | {"life_reached": one.reached, "stop": one.stop, "feasible": one.feasible}
-            | {"error": one.error, "warnings": one.warnings}
-        )
-    return pd.DataFrame(rows, columns=columns)
+    names = {one.number: _name(number, outcome) for number, one in enumerate(outcome.front, 1)}
+    return AnswerTable(
+        [
+            Column("design", lambda one: one.number),
+            Column("", lambda one: names.get(one.number, "as given"), "design"),
+            *(Column(key, partial(_chosen, at), key, _shown) for at, key in enumerate(study.space.keys)),
+            *(column for name in study.measures for column in _measured(name)),
+            Column("life_reached", lambda one: one.reached),
+            Column("stop", lambda one: one.stop),
+            *(_margin(study, name) for name in limit_names(study)),
+            Column("feasible", lambda one: one.feasible),
+            Column("error", lambda one: one.error),
+            Column("warnings", lambda one: one.warnings),
+        ],
+        candidates,
+    )
+
+
+def _measured(name: str) -> Iterator[Column[Candidate]]:
+    yield Column(name, lambda one: one.measures.get(name))
+    yield Column("", lambda one: None if one.error else _measure(one, name), name, missing="failed")
+
+
+def _chosen(at: int, one: Candidate) -> Any:
+    return one.values[at]
+
+
+def _margin(study: OptimiseStudy, name: str) -> Column[Candidate]:
+    return Column(
+        f"margin_{name}",
+        lambda one: None if one.error else margins(study, one)[name],
+        f"to {name}",
+        lambda part: f"{100.0 * part:+.3g} %",
+        missing="failed",
+    )
 
 
 def optimise_warnings(outcome: OptimiseOutcome) -> tuple[str, ...]:
@@ -113,7 +126,8 @@ def optimise_text(outcome: OptimiseOutcome) -> str:
     study, front = outcome.study, outcome.front
     kind = "best design" if len(study.objectives) == 1 else f"front of {len(front)} designs"
     sought = ", ".join(f"{'longest' if name in MAXIMISED else 'least'} {name}" for name in study.objectives)
-    lines = [study.case.title, "", f"{kind}: {sought}", "", *_table(outcome)]
+    shown = candidates_table(outcome, (outcome.unchanged, *front[:_MAX_SHOWN]))
+    lines = [study.case.title, "", f"{kind}: {sought}", "", shown.markdown()]
     if len(front) > _MAX_SHOWN:
         lines.append(f"and {len(front) - _MAX_SHOWN} more: front.csv of --out holds all")
     lines += ["", *_gains(outcome)]
@@ -121,29 +135,8 @@ def optimise_text(outcome: OptimiseOutcome) -> str:
     lines.append(f"tried        {len(outcome.candidates)} designs, {len(failed)} not feasible")
     if failed:
         lines.append(f"             {commonest_reason(study, failed)}")
-    texts = study.assumptions(outcome.cases)
-    lines += ["", "assumptions:"]
-    lines += [f"  {number}. {text}" for number, text in enumerate(texts, start=1)]
-    lines += [f"warning: {text}" for text in optimise_warnings(outcome)]
+    lines += closing_lists(study.assumptions(outcome.cases), optimise_warnings(outcome))
     return "\n".join(lines)
-
-
-def _table(outcome: OptimiseOutcome) -> list[str]:
-    study = outcome.study
-    limits = limit_names(study)
-    head = ["design", *study.space.keys, *study.measures, *(f"to {name}" for name in limits)]
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    shown = [("as given", outcome.unchanged)]
-    shown += [(_name(number, outcome), one) for number, one in enumerate(outcome.front[:_MAX_SHOWN], 1)]
-    for name, one in shown:
-        cells = [name, *(_shown(value) for value in one.values)]
-        if one.error:
-            cells += ["failed"] * (len(head) - len(cells))
-        else:
-            cells += [_measure(one, measure) for measure in study.measures]
-            cells += [f"{100.0 * value:+.3g} %" for value in margins(study, one).values()]
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return lines
 
 
 def _name(number: int, outcome: OptimiseOutcome) -> str:
@@ -155,8 +148,6 @@ def _digits(outcome: OptimiseOutcome) -> int:
 
 
 def _shown(value: Any) -> str:
-    if value is None:
-        return "-"
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
@@ -214,7 +205,7 @@ def _plain(outcome: OptimiseOutcome, one: Candidate) -> dict[str, Any]:
 def write_candidates(outcome: OptimiseOutcome, folder: Path) -> None:
     """Write the table of all designs that were tried into the folder of a study."""
     tried = candidates_table(outcome, (outcome.unchanged, *outcome.candidates))
-    save_files(folder, {"candidates.csv": tried.to_csv(index=False)})
+    save_files(folder, {"candidates.csv": tried.csv()})
 
 
 def write_optimise(outcome: OptimiseOutcome, folder: Path) -> None:
@@ -222,7 +213,7 @@ def write_optimise(outcome: OptimiseOutcome, folder: Path) -> None:
     from wearsim.study.optimise.figure import optimise_figures
 
     texts = {
-        "front.csv": candidates_table(outcome, outcome.front).to_csv(index=False),
+        "front.csv": candidates_table(outcome, outcome.front).csv(),
         "summary.md": f"# {outcome.study.case.title}\n\n{optimise_text(outcome)}\n",
     }
     save_files(folder, texts)

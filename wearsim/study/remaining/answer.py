@@ -9,7 +9,8 @@ from wearsim.case.model import Case
 from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.readings.dated_rows import readings_file
-from wearsim.report.public_answer import Answer, table_of
+from wearsim.report.answer_table import table_of
+from wearsim.report.public_answer import Answer
 from wearsim.result import Life, LowerBound
 from wearsim.result.lives import hours as in_hours
 from wearsim.runner.in_threads import Progress, silent
@@ -41,6 +42,8 @@ class RemainingResult(Answer):
     found : RemainingLife
         Reading, lives and coefficient as objects.
     """
+
+    _tables = ("parts",)
 
     case: Case
     found: RemainingLife
@@ -89,27 +92,10 @@ class RemainingResult(Answer):
     def parts(self) -> "pd.DataFrame":
         """One row: the part, its life and the hours that are left, with their ends; nan where unknown."""
         names = ("life_hours", "remaining_hours", "remaining_hours_low", "remaining_hours_high")
-        found = self.summary()
+        found = self._content()
         return table_of([{"part": found["part"], **{name: found[name] for name in names}}])
 
-    def tables(self) -> "dict[str, pd.DataFrame]":
-        """Return the hours.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``parts``.
-        """
-        return {"parts": self.parts}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim remaining --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return remaining_json(self.found, self.case.inputs)
 
 

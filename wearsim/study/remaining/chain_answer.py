@@ -1,17 +1,17 @@
 """The state of a chain from a table of readings."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.quantities import grouped
-from wearsim.report.public_answer import DrawnAnswer, table_of
+from wearsim.report.public_answer import DrawnAnswer
 from wearsim.study.remaining.chain_sheet import (
+    chain_files,
     chain_json,
     chain_text,
-    interval_rows,
-    reading_rows,
-    write_chain,
+    intervals_table,
+    readings_table,
 )
 from wearsim.study.remaining.chain_state import ChainState
 
@@ -29,6 +29,8 @@ class ChainReadingsResult(DrawnAnswer):
     found : ChainState
         Readings, distribution of the coefficient and quantiles as objects.
     """
+
+    _tables = ("intervals", "readings")
 
     found: ChainState
 
@@ -51,31 +53,14 @@ class ChainReadingsResult(DrawnAnswer):
     @property
     def intervals(self) -> "pd.DataFrame":
         """A row for each quantity with its quantiles ``p05``, ``p25``, ``p50``, ``p75``, ``p95``."""
-        return table_of(interval_rows(self.found))
+        return intervals_table(self.found).frame()
 
     @property
     def readings(self) -> "pd.DataFrame":
         """Every reading as an elongation [%] beside its prediction."""
-        return table_of(reading_rows(self.found))
+        return readings_table(self.found).frame()
 
-    def tables(self) -> "dict[str, pd.DataFrame]":
-        """Return intervals and readings.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``intervals``, ``readings``.
-        """
-        return {"intervals": self.intervals, "readings": self.readings}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim remaining --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return chain_json(self.found)
 
     def pictures(self) -> "dict[str, Figure]":
@@ -90,5 +75,5 @@ class ChainReadingsResult(DrawnAnswer):
 
         return {"readings": chain_figure(self.found)}
 
-    def _write(self, place: Path) -> None:
-        write_chain(self.found, place)
+    def _files(self) -> Mapping[str, str]:
+        return chain_files(self.found)

@@ -1,14 +1,15 @@
 """The state of a chain as text, JSON, tables and a picture."""
 
-from collections.abc import Iterable
-from pathlib import Path
+from functools import partial
+from itertools import starmap
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.readings.chain_readings import GAUGE
+from wearsim.readings.chain_readings import GAUGE, ChainReading
 from wearsim.readings.relubrications import relubrication_rows
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.answer_table import AnswerTable, Column
+from wearsim.report.text_lines import Finding, answer_text, closing, fenced
 from wearsim.study.remaining.chain_state import ChainState, Quantiles
 
 _DIGITS = {"elongation_percent": 3, "coefficient_factor": 3}
@@ -28,19 +29,18 @@ def chain_text(found: ChainState) -> str:
     left = found.of("remaining_hours")
     today = grouped(found.log.relubrications.today)
     rows = [
-        ("Remaining", f"{_shown(left)[2]} h of the chain after {today} h{_intervals(left)}"),
+        Finding("Remaining", f"{_shown(left)[2]} h of the chain after {today} h{_intervals(left)}"),
         *(
-            (label, form.format(_shown(one)[2]) + _intervals(one))
+            Finding(label, form.format(_shown(one)[2]) + _intervals(one))
             for one in found.quantiles
             if one.name in _WORDS
             for label, form in [_WORDS[one.name]]
         ),
-        ("Readings", counted_readings(found)),
-        *relubrication_rows(found.log.relubrications),
-        ("Assumes", numbered_assumptions(found.assumptions)),
-        ("Warnings", "; ".join(found.warnings) or "none"),
+        Finding("Readings", counted_readings(found)),
+        *starmap(Finding, relubrication_rows(found.log.relubrications)),
+        *closing(found.assumptions, found.warnings),
     ]
-    return "\n".join([found.case.title, *(row(label, text) for label, text in rows)])
+    return answer_text(found.case.title, *rows)
 
 
 def counted_readings(found: ChainState) -> str:
@@ -66,8 +66,8 @@ def chain_json(found: ChainState) -> dict[str, Any]:
         "remaining_hours": left.middle,
         "remaining_hours_low": left.values[0],
         "remaining_hours_high": left.values[-1],
-        "intervals": interval_rows(found),
-        "readings": reading_rows(found),
+        "intervals": intervals_table(found).records(),
+        "readings": readings_table(found).records(),
         "relubrications": len(found.log.relubrications.hours),
         "error_scale": found.posterior.scale,
         "assumptions": list(found.assumptions),
@@ -75,43 +75,48 @@ def chain_json(found: ChainState) -> dict[str, Any]:
     }
 
 
-def interval_rows(found: ChainState) -> list[dict[str, Any]]:
+def intervals_table(found: ChainState) -> AnswerTable[Quantiles]:
     """Return a row for each quantity that is told, with its quantiles."""
     names = ("p05", "p25", "p50", "p75", "p95")
-    return [
-        {"quantity": one.name, **dict(zip(names, _plain(one.values), strict=True))} for one in found.quantiles
-    ]
+    return AnswerTable(
+        [
+            Column("quantity", lambda one: one.name),
+            *(Column(name, partial(_level, at)) for at, name in enumerate(names)),
+        ],
+        found.quantiles,
+    )
 
 
-def reading_rows(found: ChainState) -> list[dict[str, Any]]:
+def _level(at: int, one: Quantiles) -> float | str | None:
+    """Return one of the quantiles, None of a day that no calendar has."""
+    return None if one.values[at] == "" else one.values[at]
+
+
+def readings_table(found: ChainState) -> AnswerTable[tuple[ChainReading, float]]:
     """Return each reading as an elongation, beside what the median coefficient says."""
     factor = found.of("coefficient_factor").middle
     assert isinstance(factor, float)
-    return [
-        {
-            "reading_row": one.line,
-            "time_hours": one.hours,
-            "quantity": one.quantity,
-            "elongation_percent": one.mark,
-            "result": one.result,
-            "error": one.error,
-            "predicted": factor * expected,
-        }
-        for one, expected in zip(found.log.readings, found.expected, strict=True)
-    ]
+    return AnswerTable(
+        [
+            Column("reading_row", lambda one: one[0].line),
+            Column("time_hours", lambda one: one[0].hours),
+            Column("quantity", lambda one: one[0].quantity),
+            Column("elongation_percent", lambda one: one[0].mark),
+            Column("result", lambda one: one[0].result),
+            Column("error", lambda one: one[0].error),
+            Column("predicted", lambda one: factor * one[1]),
+        ],
+        list(zip(found.log.readings, found.expected, strict=True)),
+    )
 
 
-def write_chain(found: ChainState, place: Path) -> None:
-    """Write tables, summary and picture into a folder."""
-    import pandas as pd
-
-    from wearsim.report.figures import save_figure
-    from wearsim.study.remaining.figure import chain_figure
-
-    pd.DataFrame(interval_rows(found)).to_csv(place / "intervals.csv", index=False)
-    pd.DataFrame(reading_rows(found)).to_csv(place / "readings.csv", index=False)
-    (place / "summary.md").write_text(f"```\n{chain_text(found)}\n```\n", encoding="utf-8")
-    save_figure(chain_figure(found), place, "readings")
+def chain_files(found: ChainState) -> dict[str, str]:
+    """Return tables and summary, each as the content of a file."""
+    return {
+        "intervals.csv": intervals_table(found).csv(),
+        "readings.csv": readings_table(found).csv(),
+        "summary.md": fenced(chain_text(found)),
+    }
 
 
 def _intervals(one: Quantiles) -> str:
@@ -125,7 +130,3 @@ def _shown(one: Quantiles) -> list[str]:
         (value or "beyond the calendar") if isinstance(value, str) else grouped(value, digits)
         for value in one.values
     ]
-
-
-def _plain(values: Iterable[float | str]) -> list[float | str | None]:
-    return [None if value == "" else value for value in values]

@@ -6,7 +6,7 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.answer import service_text
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import Finding, answer_text, closing
 from wearsim.result import Life, life_keys
 from wearsim.result.lives import hours, service_keys
 from wearsim.study.remaining.model import RemainingLife
@@ -25,19 +25,20 @@ def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
     what = _WORDS[reading.quantity].format(f"{reading.value:g}")
     service = service_text(inputs, found.remaining, reading.hours)
     rows = [
-        ("Remaining", f"{hours(found.remaining)} of the {found.part} after {grouped(reading.hours)} h"),
-        ("By the reading's error:", f"{band}   ({what}, give or take {reading.error:g})"),
-        *([("In service", service)] if service else []),
-        ("Life", f"{hours(found.life)} of the {found.part} in all"),
-        (
+        Finding(
+            "Remaining", f"{hours(found.remaining)} of the {found.part} after {grouped(reading.hours)} h"
+        ),
+        Finding("By the reading's error:", f"{band}   ({what}, give or take {reading.error:g})"),
+        *([Finding("In service", service)] if service else []),
+        Finding("Life", f"{hours(found.life)} of the {found.part} in all"),
+        Finding(
             "Coefficient",
             f"{found.coefficient:.4g}, {found.factor:.3g} times the case's, which would show the reading "
             f"after {grouped(found.model_hours)} h",
         ),
-        ("Assumes", numbered_assumptions(found.assumptions)),
-        ("Warnings", "; ".join(found.warnings) or "none"),
+        *closing(found.assumptions, found.warnings),
     ]
-    return "\n".join([found.title, *(row(label, text) for label, text in rows)])
+    return answer_text(found.title, *rows)
 
 
 def remaining_json(found: RemainingLife, inputs: Mapping[str, Any]) -> dict[str, Any]:

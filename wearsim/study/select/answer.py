@@ -10,9 +10,15 @@ from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.load_case import load_drive
 from wearsim.errors import CaseError, Range, check_ranges
 from wearsim.quantities import grouped
-from wearsim.report.public_answer import Answer, table_of
+from wearsim.report.public_answer import Answer
 from wearsim.study.select.selected_case import case_tables
-from wearsim.study.select.sheet import SelectionAnswer, answer_to, selection_json, selection_text
+from wearsim.study.select.sheet import (
+    SelectionAnswer,
+    answer_to,
+    drives_table,
+    selection_json,
+    selection_text,
+)
 from wearsim.study.select.wish import Wish, read_wish
 
 if TYPE_CHECKING:
@@ -30,6 +36,8 @@ class SelectionResult(Answer):
     answer : SelectionAnswer
         All drives that were judged, as objects.
     """
+
+    _tables = ("drives",)
 
     wish: Wish
     answer: SelectionAnswer
@@ -57,7 +65,7 @@ class SelectionResult(Answer):
     @property
     def drives(self) -> "pd.DataFrame":
         """A row for each drive that passes, the lightest or cheapest first; empty where none does."""
-        return table_of(self.summary()["drives"])
+        return drives_table(self.answer.shown).frame()
 
     def case(self, row: int = 0) -> DriveCase:
         """Return one of the drives as a case.
@@ -81,24 +89,7 @@ class SelectionResult(Answer):
         drive = self.answer.shown[row]
         return load_drive(case_tables(drive, wish.need, wish.hours_per_day))
 
-    def tables(self) -> "dict[str, pd.DataFrame]":
-        """Return the drives.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``drives``.
-        """
-        return {"drives": self.drives}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim select --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return selection_json(self.answer)
 
 

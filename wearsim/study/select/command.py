@@ -262,6 +262,6 @@ def _write(
         command = shlex.join(["wearsim", *sys.argv[1:]]).replace("\n", " ")
         write_content(out, case_text(tables, command).encode(), force)
     if csv_file is not None:
-        from wearsim.study.select.sheet import selection_csv
+        from wearsim.study.select.sheet import drives_table
 
-        write_content(csv_file, selection_csv(answer).encode(), force)
+        write_content(csv_file, drives_table(answer.shown).csv().encode(), force)

@@ -1,7 +1,5 @@
 """The drives that pass: a table as text, JSON and CSV, and what refuses the others."""
 
-import csv
-import io
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,7 +8,8 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.text_lines import numbered_assumptions, row, table_lines
+from wearsim.report.answer_table import AnswerTable, Column
+from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 from wearsim.study.select.considered_chains import ConsideredChains, considered_chains
 from wearsim.study.select.model import (
     LEAST_WRAP,
@@ -25,10 +24,6 @@ from wearsim.study.select.model import (
 from wearsim.study.select.requirements import MOST_TEETH, DriveRequirements
 from wearsim.study.select.wish import Wish
 
-_HEAD = (
-    *("chain", "strands", "teeth", "ratio", "links", "centre mm", "m/s", "kg", "cost"),
-    *("chain life h", "low to high", "lubrication", "most used rating", "margin %", "shaft N", "tip mm"),
-)
 _SHOWN_SKIPPED = 4
 
 
@@ -78,41 +73,39 @@ def answer_to(wish: Wish, every_pair: bool, count: int) -> SelectionAnswer:
     )
 
 
-def drive_columns(drive: CandidateDrive) -> dict[str, Any]:
-    """Return a drive as a row of the table, in the units of the columns."""
-    layout, most = drive.layout, drive.most_used
-    return {
-        "designation": drive.chain.designation,
-        "strands": drive.chain.strands,
-        "driver_teeth": layout.teeth_1,
-        "driven_teeth": layout.teeth_2,
-        "gear_ratio": layout.ratio,
-        "links": layout.links,
-        "centre_distance_mm": layout.centre_distance,
-        "chain_speed_m_per_s": drive.chain_speed,
-        "drive_mass_kg": drive.mass,
-        "drive_cost": drive.cost,
-        "chain_life_hours": drive.life,
-        "chain_life_hours_low": drive.life_low,
-        "chain_life_hours_high": drive.life_high,
-        "recommended_lubrication": drive.recommended_lubrication,
-        "lubricated_life_hours": drive.lubricated_life,
-        "most_used_rating": most.name,
-        "rating_margin_percent": 100.0 * (1.0 - most.used),
-        "shaft_load_N": drive.shaft_load,
-        "largest_tip_diameter_mm": drive.tip_diameter,
-    }
-
-
-def selection_csv(answer: SelectionAnswer) -> str:
-    """Return the rows that are shown as a CSV file."""
-    found = io.StringIO()
-    rows = [drive_columns(drive) for drive in answer.shown]
-    columns = list(rows[0])
-    writer = csv.DictWriter(found, columns, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return found.getvalue()
+def drives_table(drives: Sequence[CandidateDrive]) -> AnswerTable[CandidateDrive]:
+    """Return a row for each drive; on the screen without columns that hold nothing."""
+    priced = any(one.cost is not None for one in drives)
+    poorer = any(one.lubricated_life != one.life for one in drives)
+    return AnswerTable(
+        [
+            Column("designation", lambda one: one.chain.designation, "chain"),
+            Column("strands", lambda one: one.chain.strands, "strands"),
+            Column("driver_teeth", lambda one: one.layout.teeth_1),
+            Column("driven_teeth", lambda one: one.layout.teeth_2),
+            Column("", lambda one: f"{one.layout.teeth_1}/{one.layout.teeth_2}", "teeth"),
+            Column("gear_ratio", lambda one: one.layout.ratio, "ratio", "{:.4g}"),
+            Column("links", lambda one: one.layout.links, "links"),
+            Column("centre_distance_mm", lambda one: one.layout.centre_distance, "centre mm", "{:.1f}"),
+            Column("chain_speed_m_per_s", lambda one: one.chain_speed, "m/s", "{:.2f}"),
+            Column("drive_mass_kg", lambda one: one.mass, "kg", "{:.2f}"),
+            Column("drive_cost", lambda one: one.cost, "cost" if priced else None, "{:.2f}", missing=""),
+            Column("chain_life_hours", lambda one: one.life, "chain life h", grouped),
+            Column("chain_life_hours_low", lambda one: one.life_low),
+            Column("chain_life_hours_high", lambda one: one.life_high),
+            Column("", _span, "low to high"),
+            Column("recommended_lubrication", lambda one: one.recommended_lubrication),
+            Column("lubricated_life_hours", lambda one: one.lubricated_life),
+            Column("", _lubrication, "lubrication" if poorer else None),
+            Column("most_used_rating", lambda one: one.most_used.name, "most used rating"),
+            Column(
+                "rating_margin_percent", lambda one: 100.0 * (1.0 - one.most_used.used), "margin %", "{:.1f}"
+            ),
+            Column("shaft_load_N", lambda one: one.shaft_load, "shaft N", "{:.0f}"),
+            Column("largest_tip_diameter_mm", lambda one: one.tip_diameter, "tip mm", "{:.1f}"),
+        ],
+        drives,
+    )
 
 
 def selection_json(answer: SelectionAnswer) -> dict[str, Any]:
@@ -124,11 +117,11 @@ def selection_json(answer: SelectionAnswer) -> dict[str, Any]:
         "chains": len(answer.considered.chains),
         "judged": len(answer.drives),
         "passed": len(answer.passing),
-        "drives": [drive_columns(drive) for drive in answer.shown],
+        "drives": drives_table(answer.shown).records(),
         "refused": refused_by(answer.drives),
         "nearest_miss": None
         if miss is None
-        else {**drive_columns(miss), "used": {one.limit: one.used for one in miss.refusals}},
+        else {**drives_table([miss]).records()[0], "used": {one.limit: one.used for one in miss.refusals}},
         "skipped": {reason: list(names) for reason, names in answer.considered.skipped.items()},
         "assumptions": list(_assumptions(answer)),
     }
@@ -139,42 +132,20 @@ def selection_text(answer: SelectionAnswer) -> str:
     need = answer.need
     drive = f"{need.power:g} kW at {need.speed:g} rpm, ratio {need.ratio:g}"
     title = f"{drive}, {grouped(need.hours)} h ({answer.use})"
-    shown = answer.shown
-    lines = [title]
-    if shown:
-        lines += _table([_cells(drive) for drive in shown])
-        lines.append(row("Ranked by", answer.criterion))
-        lines.append(row("Passed", _passed(answer)))
+    parts: list[object] = [title]
+    if answer.shown:
+        parts += [drives_table(answer.shown), Finding("Ranked by", answer.criterion)]
+        parts.append(Finding("Passed", _passed(answer)))
     else:
-        lines.append(row("Passed", f"none of {_judged(answer)}"))
-        lines.append(row("Nearest", _nearest(answer)))
-    lines.append(row("Refused", _refused(answer)))
+        parts += [Finding("Passed", f"none of {_judged(answer)}"), Finding("Nearest", _nearest(answer))]
+    parts.append(Finding("Refused", _refused(answer)))
     if answer.considered.skipped:
-        lines.append(row("Left out", _skipped(answer.considered.skipped)))
-    lines.append(row("Assumes", numbered_assumptions(_assumptions(answer))))
-    return "\n".join(lines)
+        parts.append(Finding("Left out", _skipped(answer.considered.skipped)))
+    return answer_text(*parts, Finding("Assumes", numbered_assumptions(_assumptions(answer))))
 
 
-def _cells(drive: CandidateDrive) -> list[str]:
-    layout, most = drive.layout, drive.most_used
-    return [
-        drive.chain.designation,
-        f"{drive.chain.strands}",
-        f"{layout.teeth_1}/{layout.teeth_2}",
-        f"{layout.ratio:.4g}",
-        f"{layout.links}",
-        f"{layout.centre_distance:.1f}",
-        f"{drive.chain_speed:.2f}",
-        f"{drive.mass:.2f}",
-        "" if drive.cost is None else f"{drive.cost:.2f}",
-        grouped(drive.life),
-        f"{grouped(drive.life_low, 3)} to {grouped(drive.life_high, 3)}",
-        _lubrication(drive),
-        most.name,
-        f"{100.0 * (1.0 - most.used):.1f}",
-        f"{drive.shaft_load:.0f}",
-        f"{drive.tip_diameter:.1f}",
-    ]
+def _span(drive: CandidateDrive) -> str:
+    return f"{grouped(drive.life_low, 3)} to {grouped(drive.life_high, 3)}"
 
 
 def _lubrication(drive: CandidateDrive) -> str:
@@ -182,12 +153,6 @@ def _lubrication(drive: CandidateDrive) -> str:
     if drive.lubricated_life == drive.life:
         return ""
     return f"below {drive.recommended_lubrication}: {grouped(drive.lubricated_life)} h"
-
-
-def _table(rows: list[list[str]]) -> list[str]:
-    """Return rows below their head, without columns that are empty."""
-    columns = [column for column in zip(_HEAD, *rows, strict=True) if any(column[1:])]
-    return [f"  {line}" for line in table_lines(zip(*columns, strict=True))]
 
 
 def _judged(answer: SelectionAnswer) -> str:

@@ -12,9 +12,11 @@ from matplotlib.figure import Figure
 from wearsim._version import ANSWER_HEAD
 from wearsim.case.model import Case
 from wearsim.quantities import grouped
+from wearsim.report.answer_table import AnswerTable, Column
 from wearsim.report.figures import number_ticks
 from wearsim.report.key_words import key_words
-from wearsim.report.study_files import plain, save_figures, save_files
+from wearsim.report.study_files import save_figures, save_files
+from wearsim.report.text_lines import closing_lists, fenced
 from wearsim.runner.design import value_at
 from wearsim.runner.scatter import coefficient_key
 from wearsim.study.sensitivity.model import HIGH, LOW, KeyEffect, SensitivityStudy
@@ -54,24 +56,24 @@ def sensitivity_warnings(effects: Sequence[KeyEffect], case: Case) -> tuple[str,
     return (*found, f"the indices of {', '.join(loose)} are not known well: take more --samples")
 
 
-def sensitivity_table(answer: SensitivityAnswer) -> pd.DataFrame:
+def sensitivity_table(answer: SensitivityAnswer) -> AnswerTable[KeyEffect]:
     """Return a row for each key."""
-    return pd.DataFrame(
-        {
-            "key": effect.scatter.key,
-            "value": effect.scatter.value,
-            "low_life_hours": effect.low_hours,
-            "high_life_hours": effect.high_hours,
-            "first_order_index": effect.first,
-            "first_order_error": effect.first_error,
-            "total_index": effect.total,
-            "total_error": effect.total_error,
-            "morris_mu_star": effect.morris,
-            "morris_error": effect.morris_error,
-            "morris_sigma": effect.interaction,
-            "value_for_double_life": answer.doubled[effect.scatter.key],
-        }
-        for effect in answer.effects
+    return AnswerTable(
+        [
+            Column("key", lambda one: one.scatter.key),
+            Column("value", lambda one: one.scatter.value),
+            Column("low_life_hours", lambda one: one.low_hours),
+            Column("high_life_hours", lambda one: one.high_hours),
+            Column("first_order_index", lambda one: one.first),
+            Column("first_order_error", lambda one: one.first_error),
+            Column("total_index", lambda one: one.total),
+            Column("total_error", lambda one: one.total_error),
+            Column("morris_mu_star", lambda one: one.morris),
+            Column("morris_error", lambda one: one.morris_error),
+            Column("morris_sigma", lambda one: one.interaction),
+            Column("value_for_double_life", lambda one: answer.doubled[one.scatter.key]),
+        ],
+        answer.effects,
     )
 
 
@@ -105,10 +107,8 @@ def sensitivity_text(answer: SensitivityAnswer) -> str:
         lines.append(f"  {effect.scatter.key:<{width}}  {effect.scatter.value:.4g} -> {shown}")
     lines += ["", "what scatters:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in scattered.scatters]
-    lines += ["", "assumptions:"]
-    texts = [*scattered.assumptions, *scattered.case.assumptions]
-    lines += [f"  {number}. {text}" for number, text in enumerate(texts, start=1)]
-    lines += [f"warning: {text}" for text in (*answer.warnings, *scattered.case.warnings)]
+    assumptions = [*scattered.assumptions, *scattered.case.assumptions]
+    lines += closing_lists(assumptions, [*answer.warnings, *scattered.case.warnings])
     if only_coefficients(scattered.case, scattered.keys):
         lines += ["", _OFFER, "", "[uncertainty]", *usual_scatters(scattered.case)]
     return "\n".join(lines)
@@ -116,14 +116,13 @@ def sensitivity_text(answer: SensitivityAnswer) -> str:
 
 def sensitivity_json(answer: SensitivityAnswer) -> dict[str, Any]:
     """Return what matters as plain values."""
-    rows = sensitivity_table(answer).to_dict("records")
     scattered = answer.study.scattered
     return {
         **ANSWER_HEAD,
         "case": scattered.case.name,
         "life_hours": answer.hours,
         "seed": answer.study.seed,
-        "keys": [{str(name): plain(value) for name, value in row.items()} for row in rows],
+        "keys": sensitivity_table(answer).records(),
         "assumptions": [*scattered.assumptions, *scattered.case.assumptions],
         "warnings": [*answer.warnings, *scattered.case.warnings],
     }
@@ -133,8 +132,8 @@ def write_sensitivity(answer: SensitivityAnswer, table: pd.DataFrame, folder: Pa
     """Write tables and the tornado into the folder of a study."""
     texts = {
         "cases.csv": table.to_csv(index=False),
-        "sensitivity.csv": sensitivity_table(answer).to_csv(index=False),
-        "summary.md": f"```\n{sensitivity_text(answer)}\n```\n",
+        "sensitivity.csv": sensitivity_table(answer).csv(),
+        "summary.md": fenced(sensitivity_text(answer)),
     }
     save_files(folder, texts)
     save_figures(folder, answer.study.scattered.case.title, {"tornado": tornado(answer)})

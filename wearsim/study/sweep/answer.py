@@ -38,6 +38,8 @@ class SweepResult(DrawnAnswer):
         A row for each case: its values, life, what ended it, warnings, error.
     """
 
+    _tables = ("cases",)
+
     study: Sweep
     cases: pd.DataFrame
 
@@ -63,24 +65,7 @@ class SweepResult(DrawnAnswer):
         """What ``wearsim sweep`` prints."""
         return sweep_text(self.study, self.cases)
 
-    def tables(self) -> dict[str, pd.DataFrame]:
-        """Return the lives.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``cases``.
-        """
-        return {"cases": self.cases}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim sweep --json`` prints it, its lines as a list.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         lines = [json.loads(line) for line in sweep_json(self.study, self.cases)]
         return {"case": self.study.design.name, "cases": lines, "warnings": self._warnings()}
 

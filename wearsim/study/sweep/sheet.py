@@ -3,6 +3,7 @@
 import json
 import math
 from collections.abc import Mapping
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -10,29 +11,29 @@ import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.study_files import plain, save_figures, save_files
+from wearsim.report.answer_table import AnswerTable, Column, records_of
+from wearsim.report.study_files import save_figures, save_files
 from wearsim.runner.shard import life_columns
 from wearsim.study.sweep.model import Sweep
 
 
 def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
     """Return a sweep as a Markdown table."""
-    parts = sweep.design.parts
-    head = [*sweep.design.keys, "life, h", "ended by", *(f"{name}, h" for name in parts)]
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    for row in table.to_dict("records"):
-        cells = [_shown(row[key]) for key in sweep.design.keys]
-        cells += [_life(row), "" if row["error"] else row["stop"]]
-        cells += [_part(row[column]) for column in life_columns(sweep.design)]
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(lines)
+    design = sweep.design
+    parts = zip(design.parts, life_columns(design), strict=True)
+    columns: list[Column[Any]] = [
+        *(Column("", itemgetter(key), key, _shown, missing="None") for key in design.keys),
+        Column("", _life, "life, h"),
+        Column("", lambda row: "" if row["error"] else row["stop"], "ended by"),
+        *(Column("", itemgetter(column), f"{name}, h", grouped) for name, column in parts),
+    ]
+    return AnswerTable(columns, table.to_dict("records")).markdown()
 
 
 def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
     """Return a sweep as JSON, an object for each case."""
     lines = []
-    for row in table.to_dict("records"):
-        known = {name: plain(value) for name, value in row.items()}
+    for known in records_of(table):
         inputs = {key: known.pop(key) for key in sweep.design.keys}
         content = ANSWER_HEAD | {"case": sweep.design.name, "inputs": inputs, **known}
         lines.append(json.dumps(content, ensure_ascii=False, allow_nan=False))
@@ -57,10 +58,6 @@ def _life(row: Mapping[Any, Any]) -> str:
     if math.isnan(row["life_hours"]):
         return f"> {grouped(row['hours_run'])} (limit not reached)"
     return grouped(row["life_hours"])
-
-
-def _part(life: float) -> str:
-    return "-" if math.isnan(life) else grouped(life)
 
 
 def _shown(value: Any) -> str:

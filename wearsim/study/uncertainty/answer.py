@@ -10,7 +10,8 @@ import pandas as pd
 from wearsim.drive.case_input import CaseInput, with_table
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.quantities import grouped
-from wearsim.report.public_answer import DrawnAnswer, table_of
+from wearsim.report.answer_table import table_of
+from wearsim.report.public_answer import DrawnAnswer
 from wearsim.runner.in_threads import SEED, THREADS, Progress, run, silent
 from wearsim.runner.run_study import failures
 from wearsim.runner.scatter import METHODS, Method
@@ -31,6 +32,8 @@ class UncertaintyResult(DrawnAnswer):
     answer : UncertaintyAnswer
         Samples, percentiles and fits as objects.
     """
+
+    _tables = ("percentiles", "fits", "convergence", "samples")
 
     answer: UncertaintyAnswer
 
@@ -79,27 +82,9 @@ class UncertaintyResult(DrawnAnswer):
     @property
     def fits(self) -> pd.DataFrame:
         """Distributions fitted to the lives, the better one first."""
-        return table_of(self.summary()["fits"])
+        return table_of(self._content()["fits"])
 
-    def tables(self) -> dict[str, pd.DataFrame]:
-        """Return percentiles, fits, convergence and samples.
-
-        Returns
-        -------
-        dict of pandas.DataFrame
-            ``percentiles``, ``fits``, ``convergence``, ``samples``.
-        """
-        names = ("percentiles", "fits", "convergence", "samples")
-        return {name: getattr(self, name) for name in names}
-
-    def summary(self) -> dict[str, Any]:
-        """Return the answer as ``wearsim uncertainty --json`` prints it.
-
-        Returns
-        -------
-        dict
-            Plain numbers, strings, lists and None; never nan.
-        """
+    def _content(self) -> dict[str, Any]:
         return uncertainty_json(self.answer)
 
     def pictures(self) -> "dict[str, Figure]":

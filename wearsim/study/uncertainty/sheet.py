@@ -8,7 +8,9 @@ import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped, percentile_meaning
-from wearsim.report.study_files import plain, save_figures, save_files
+from wearsim.report.answer_table import plain, records_of
+from wearsim.report.study_files import save_figures, save_files
+from wearsim.report.text_lines import closing_lists, fenced
 from wearsim.study.uncertainty.cross_check import BoundedValue, CrossCheck, CrossFit
 from wearsim.study.uncertainty.model import UncertaintyStudy
 from wearsim.study.uncertainty.percentiles import B10, CONFIDENCE, DistributionFit, Percentile
@@ -36,9 +38,7 @@ def uncertainty_text(answer: UncertaintyAnswer) -> str:
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in study.scattered.scatters]
     lines += ["", "percentiles of the first samples, h:"]
     lines += [f"  {line}" for line in _columns(answer.convergence)]
-    lines += ["", "assumptions:"]
-    lines += [f"  {number}. {text}" for number, text in enumerate(_assumptions(study), start=1)]
-    lines += [f"warning: {text}" for text in uncertainty_warnings(answer)]
+    lines += closing_lists(_assumptions(study), uncertainty_warnings(answer))
     return "\n".join(lines)
 
 
@@ -78,9 +78,7 @@ def uncertainty_json(answer: UncertaintyAnswer) -> dict[str, Any]:
     ]
     if answer.crossed is not None:
         content["cross_check"] = _cross_check_json(answer.crossed)
-    content["convergence"] = [
-        {name: plain(value) for name, value in row.items()} for row in answer.convergence.to_dict("records")
-    ]
+    content["convergence"] = records_of(answer.convergence)
     if answer.ends_first:
         content["ends_first"] = answer.ends_first
         content["median_life_hours"] = {name: plain(hours) for name, hours in answer.medians.items()}
@@ -96,7 +94,7 @@ def write_uncertainty(answer: UncertaintyAnswer, folder: Path) -> None:
     texts = {
         "cases.csv": answer.table.to_csv(index=False),
         "convergence.csv": answer.convergence.to_csv(index=False),
-        "summary.md": f"```\n{uncertainty_text(answer)}\n```\n",
+        "summary.md": fenced(uncertainty_text(answer)),
     }
     save_files(folder, texts)
     save_figures(folder, answer.study.scattered.case.title, uncertainty_figures(answer))

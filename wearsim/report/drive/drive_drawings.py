@@ -1,4 +1,4 @@
-"""Lives of all parts on one clock as bars, in SVG that is as wide as its page."""
+"""Drawings of a drive in SVG: its layout to scale, and the lives of all parts on one clock as bars."""
 
 import math
 from collections.abc import Iterator
@@ -6,9 +6,14 @@ from itertools import pairwise
 
 from markupsafe import Markup
 
+from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.maintenance import DrivePlan
-from wearsim.geometry.scene import round_length
+from wearsim.geometry.scene import Circle, round_length
+from wearsim.mechanisms.wrap.loop_scene import loop_scene
 from wearsim.quantities import grouped
+from wearsim.report.drive.layout import drive_forces, loop_names
+from wearsim.report.drive.page_tables import wheel_of
+from wearsim.report.html.sketch import sketch
 from wearsim.result.lives import hours, service_measures
 
 _ROW, _BAR, _AXIS = 29, 9, 36
@@ -21,6 +26,27 @@ _BEYOND = 1.05
 """What is shown over the longest life."""
 
 _TIMES = {1: "once", 2: "twice"}
+
+
+def flank_place(number: int) -> str:
+    """Return the place on a page where the flank of a sprocket is shown, by its number from 1."""
+    return f"flank-{number}"
+
+
+def layout_sketch(drive: DriveCase) -> Markup:
+    """Return the drawing of the loop; a click on a sprocket leads to its flank, of a cassette the first."""
+    forces = drive_forces(drive)
+    of = [wheel.name for wheel in wheel_of(drive).values()]
+    links = [
+        (
+            flank_place(of.index(name) + 1),
+            Circle("link", (float(x), float(y)), float(radius), f"flank of {name}"),
+        )
+        for name, (x, y), radius in zip(
+            loop_names(drive), forces.loop.centres, forces.loop.pitch_radii, strict=True
+        )
+    ]
+    return sketch(loop_scene(forces, 0.5 * drive.driver.drive.chain.roller_diameter), links)
 
 
 def lives_bars(plan: DrivePlan) -> Markup:
