@@ -1,6 +1,7 @@
 """The reference run as the kernels take it, and C sources compiled on the spot."""
 
 import ctypes
+import functools
 import os
 import shlex
 import subprocess
@@ -24,6 +25,12 @@ FLAGS = {
     "fast-math": ["-O3", "-march=native", "-ffast-math"],
     "fissioned": ["-O3", "-march=native", "-fno-math-errno", "-ffinite-math-only", "-fno-signed-zeros"],
 }
+
+
+@pytest.fixture(scope="session")
+def rounds(pytestconfig):
+    """How often what takes seconds is timed: the rounds that the command line asks for."""
+    return pytestconfig.getoption("benchmark_min_rounds")
 
 
 @pytest.fixture
@@ -73,6 +80,7 @@ def c_function(tmp_path_factory):
     """A C function compiled with one of the sets of flags: source, flags, name, types of arguments."""
     folder = tmp_path_factory.mktemp("c")
 
+    @functools.cache
     def build(source, kind, name, arguments):
         file = Path(__file__).with_name(f"{source}.c")
         library = folder / f"{source}-{kind}.so"

@@ -70,17 +70,17 @@ def test_help(benchmark, imports):
     assert benchmark.stats.stats.min < 0.4 * imports
 
 
-def test_life_warm(benchmark, imports):
-    benchmark.pedantic(run, ("life", SHIPPED), rounds=5, warmup_rounds=1)
+def test_life_warm(benchmark, rounds, imports):
+    benchmark.pedantic(run, ("life", SHIPPED), rounds=rounds, warmup_rounds=1)
     assert benchmark.stats.stats.min < 4.0 * imports
 
 
-def test_life_cold(benchmark, imports):
+def test_life_cold(benchmark, rounds, imports):
     def cold():
         with tempfile.TemporaryDirectory() as folder:
             run("life", SHIPPED, NUMBA_CACHE_DIR=folder)
 
-    benchmark.pedantic(cold, rounds=3, warmup_rounds=0)
+    benchmark.pedantic(cold, rounds=min(rounds, 3))
     # 15 to 17 of them were measured: the compiler slows down more than imports on a busy machine.
     assert benchmark.stats.stats.min < 22.0 * imports
 

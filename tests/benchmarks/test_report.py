@@ -24,10 +24,8 @@ def run(tmp_path_factory):
 
 
 @pytest.mark.parametrize("options", [(), ("--single-file",), ("--detail", "brief")])
-def test_report_of_a_run(benchmark, run, tmp_path, options):
+def test_report_of_a_run(benchmark, rounds, run, tmp_path, options):
     out = tmp_path / "out"
     arguments = [COMMAND, "report", str(run), "--out", str(out), "--force", *options]
-    benchmark.pedantic(
-        lambda: subprocess.run(arguments, check=True, capture_output=True), rounds=2, warmup_rounds=1
-    )
+    benchmark.pedantic(lambda: subprocess.run(arguments, check=True, capture_output=True), rounds=rounds)
     benchmark.extra_info["page_kB"] = (out / "index.html").stat().st_size // 1000

@@ -347,8 +347,17 @@ def flat(value):
     return value
 
 
+RAN = {}
+
+
 def runs(tables):
-    """All that runs of a drive, its prices, and where the chain lies."""
+    """All that runs of a drive, its prices, and where the chain lies; of each drive once."""
+    if (name := repr(tables)) not in RAN:
+        RAN[name] = run(tables)
+    return RAN[name]
+
+
+def run(tables):
     drive = load_drive(tables)
     prices = [one.case.inputs.get("maintenance") for one in drive.sprockets]
     days = drive.driver.case.inputs.get("service")

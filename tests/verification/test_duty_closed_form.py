@@ -25,8 +25,8 @@ STRAND = {
 WRAP = {
     "format_version": 1,
     "chain": {"designation": "ANSI 40"},
-    "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 101},
-    "mechanism": {"phases": 2},
+    "sprocket": {"teeth": 19, "profile": "ansi_b29", "nodes": 61},
+    "mechanism": {"phases": 1},
     "drive": {"slack_tension_N": 40.0},
     "joint": {"specific_wear_rate_mm2_per_N": 1e-10},
     "wear": {"specific_wear_rate_mm2_per_N": 1e-9},

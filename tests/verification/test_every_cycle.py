@@ -20,7 +20,7 @@ WRAP = {
     "format_version": 1,
     "chain": {"designation": "ANSI 40"},
     "sprocket": {"teeth": 20, "profile": "ansi_b29", "nodes": 101},
-    "mechanism": {"kind": "wrap", "phases": 8},
+    "mechanism": {"kind": "wrap", "phases": 4},
     "drive": {"mate_teeth": 20, "links": 114, "slack_tension_N": 50},
     "load": {"tension_N": 1000, "speed_rpm": 100},
     "wear": {"specific_wear_rate_mm2_per_N": 1e-6},

@@ -4,6 +4,7 @@ The loop has formulas, tables and constants of its own, from the texts of ANSI B
 GOST practice; of wearsim it takes the rows of the catalogue only.
 """
 
+import functools
 import math
 from collections.abc import Callable
 from dataclasses import replace
@@ -50,6 +51,7 @@ def used(drive: CandidateDrive, rating: str) -> float:
     return next(one.used for one in drive.findings if one.name == rating)
 
 
+@functools.cache
 def judged(need: DriveRequirements) -> tuple[CandidateDrive, ...]:
     return judged_drives(need, considered_chains(need).chains)
 

@@ -3,6 +3,7 @@
 On a strand with m = 1 the life goes with 1/(k F): equation I = K q |v_s|/v_t of the physics.
 """
 
+import functools
 from typing import Any
 
 import pytest
@@ -29,11 +30,11 @@ def solved(key: str, start: float, hours: float, *settings: str, whole: bool = F
     return solve_for(at, start, hours, whole)
 
 
+@functools.cache
 def life(*settings: str) -> float:
     return wearsim.simulate(wearsim.load_case(STRAND, settings)).life.hours
 
 
-@pytest.mark.wide
 @pytest.mark.wide
 @pytest.mark.parametrize(
     ("key", "start", "factor"),

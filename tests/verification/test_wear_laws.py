@@ -151,7 +151,7 @@ def test_a_whole_drive_has_one_clock() -> None:
     """N = N_ref (tau/N_ref)^(1/b) in hours, the same for all sprockets and both ends of the band."""
     case = Path(__file__).parents[2] / "cases" / "drives" / "packaging-conveyor.toml"
     rough = ["run.life_tolerance=0.1", "stop.critical_depth_mm=0.02"]
-    rough += ["mechanism.phases=2", "sprocket.1.nodes=61", "sprocket.2.nodes=61"]
+    rough += ["mechanism.phases=1", "sprocket.1.nodes=31", "sprocket.2.nodes=31"]
     plain = wearsim.simulate(wearsim.load_case(case, rough))
     slow = wearsim.simulate(
         wearsim.load_case(case, [*rough, "wear.cycles_exponent=0.8", "wear.reference_hours=1000"])
