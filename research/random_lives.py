@@ -18,8 +18,8 @@ import numpy as np
 
 import wearsim
 from wearsim.catalogue.catalogues import chains
+from wearsim.drive.wear_task import wear_task
 from wearsim.result import Life, WearResult
-from wearsim.simulation.wear_task import wear_task
 from wearsim.wear import trajectory
 
 SEED, CASES = 20261121, 200

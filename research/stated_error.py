@@ -30,9 +30,9 @@ from random_lives import add_limit, add_range, draw, log_uniform, random_wear, u
 
 import wearsim
 from wearsim.catalogue.catalogues import chains
+from wearsim.drive.wear_task import wear_task
+from wearsim.drive.wrap_life import wrap_task
 from wearsim.geometry.profile_points import Profile
-from wearsim.simulation.wear_task import wear_task
-from wearsim.simulation.wrap_life import wrap_task
 from wearsim.wear.implicit_steps import run_seated
 from wearsim.wear.trajectory import Trajectory
 

@@ -8,7 +8,7 @@ import pytest
 
 from wearsim.cli.schema import result_schema
 from wearsim.drive.load_case import load_case
-from wearsim.simulation import simulate
+from wearsim.drive.part_life import simulate
 
 KEYS = (
     "schema_version",

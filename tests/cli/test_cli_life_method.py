@@ -152,8 +152,8 @@ def test_too_many_cycles_are_refused_before_the_run(cli, path, monkeypatch):
     def run(*arguments):
         raise ConvergenceError("it runs")
 
-    monkeypatch.setattr("wearsim.simulation.pointwise.run_per_cycle", run)
-    monkeypatch.setattr("wearsim.simulation.wrap_life.run_resting", run)
+    monkeypatch.setattr("wearsim.drive.pointwise.run_per_cycle", run)
+    monkeypatch.setattr("wearsim.drive.wrap_life.run_resting", run)
     rate = f"wear.specific_wear_rate_mm2_per_N={RATES[path.stem]}"
     asked = ("life", "--json", path, *PER_CYCLE, "--set", rate, "--set", "run.horizon_hours=1e12")
     done = cli(*asked)

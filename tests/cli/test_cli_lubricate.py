@@ -12,8 +12,8 @@ from click.testing import CliRunner
 import wearsim
 from tests.drives import LIGHT_WRAP, changed
 from wearsim.cli.main import wearsim_command
+from wearsim.drive.part_life import case_clock
 from wearsim.quantities import grouped
-from wearsim.simulation import case_clock
 from wearsim.study.lubricate.answer import LubricationResult
 from wearsim.study.lubricate.runs import compare_intervals
 from wearsim.study.lubricate.sheet import lubrication_json, lubrication_text, policy_rows

@@ -246,8 +246,8 @@ def test_missing_libraries_are_named_before_a_run(cli, drive, tmp_path, monkeypa
 
 
 def test_a_case_that_fails_is_left_out(cli, drive, tmp_path, monkeypatch):
+    from wearsim.drive.part_life import simulate
     from wearsim.errors import ConvergenceError
-    from wearsim.simulation import simulate
 
     def failing(case, told):
         if case.name == "worse":

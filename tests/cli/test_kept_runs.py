@@ -14,11 +14,12 @@ import pytest
 
 import wearsim
 from wearsim.catalogue.shipped_cases import shipped_cases
+from wearsim.drive import wrap_life
 from wearsim.drive.drive_case import single_cases
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_case
+from wearsim.drive.part_life import simulate
 from wearsim.result import kept_runs
-from wearsim.simulation import simulate, wrap_life
 
 SHIPPED = {name: str(path) for name, path in shipped_cases().items()}
 

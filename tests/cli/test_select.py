@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from wearsim.drive.load_case import load_drive
-from wearsim.simulation.wrap_life import chain_practice
+from wearsim.drive.wrap_life import chain_practice
 
 pytestmark = pytest.mark.wide
 

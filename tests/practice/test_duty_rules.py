@@ -6,6 +6,7 @@ import wearsim
 from wearsim.chain.practice import opinions, outside_practice, pressure_velocity
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
+from wearsim.drive.wrap_life import chain_practice
 from wearsim.report.answer import overload_text
 from wearsim.report.drive.drive_text import drive_text
 from wearsim.result import Life
@@ -18,7 +19,6 @@ from wearsim.result.second_opinions import (
     second_opinions,
     span_text,
 )
-from wearsim.simulation.wrap_life import chain_practice
 
 DRIVE = {
     "format_version": 1,

@@ -5,8 +5,8 @@ import itertools
 import pytest
 
 from wearsim.drive.load_case import load_case, load_drive
+from wearsim.drive.part_life import simulate
 from wearsim.errors import CaseError
-from wearsim.simulation import simulate
 
 STRAND = {
     "format_version": 1,

@@ -13,9 +13,9 @@ from jsonschema import Draft202012Validator
 from pydantic import BaseModel
 
 import wearsim
+from wearsim.drive.batch_lives import CaseLife
 from wearsim.lubrication.keys import LubricantOption
 from wearsim.mechanisms.gear_pair.keys import GearTables
-from wearsim.simulation.batch_lives import CaseLife
 
 pytestmark = pytest.mark.wide
 

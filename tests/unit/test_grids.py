@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from wearsim.simulation.flank_grids import GridSearch, SettledLife, settle_grid
+from wearsim.drive.flank_grids import GridSearch, SettledLife, settle_grid
 from wearsim.wear.accuracy import SAFETY
 
 

@@ -11,10 +11,10 @@ import wearsim
 from tests.drives import FAST_WRAP, changed, depth_limit
 from wearsim.case.keys import MaintenanceTable
 from wearsim.contact.resting_engagement import MateWear
+from wearsim.drive.wear_task import wear_law
 from wearsim.errors import CaseError
 from wearsim.report.answer import answer
 from wearsim.result import Life, LowerBound
-from wearsim.simulation.wear_task import wear_law
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy, cost_per_1000_hours, maintain
 from wearsim.study.maintain.reversed_sprocket import reversed_life
 from wearsim.study.maintain.sheet import maintenance_page, maintenance_text, policies_table

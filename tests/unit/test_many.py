@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.drive import batch_lives as many
+from wearsim.drive.batch_lives import CaseLife
 from wearsim.drive.simulate import simulate_many
 from wearsim.errors import WearsimError
-from wearsim.simulation import batch_lives as many
-from wearsim.simulation.batch_lives import CaseLife
 
 CaseMaker = Callable[..., wearsim.Case]
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.drive.batch_lives import CaseLife
+from wearsim.drive.part_life import verify_grid
 from wearsim.drive.simulate import simulate_many
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.kernels.roller_locus import distance_to, met_near
-from wearsim.simulation import verify_grid
-from wearsim.simulation.batch_lives import CaseLife
 
 STRAND: dict[str, Any] = {
     "format_version": 1,

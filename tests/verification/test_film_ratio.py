@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.drive.validity import film_ratio
 from wearsim.errors import CaseError
 from wearsim.lubrication.film import Lubricant, minimum_film
-from wearsim.simulation.validity import film_ratio
 
 CASES = Path(__file__).parents[2] / "cases"
 FILM = ("film.viscosity_mPa_s=80", "film.pressure_viscosity_per_GPa=20", "film.roughness_um=0.5")

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import wearsim
+from wearsim.drive.part_life import verify_grid
 from wearsim.errors import WearsimError
-from wearsim.simulation import verify_grid
 
 CaseMaker = Callable[..., wearsim.Case]
 

@@ -13,7 +13,7 @@ import pytest
 import wearsim
 from wearsim.chain.joint_wear import LEAST_PRESSURE, PITCHES, TURNING, JointState
 from wearsim.drive.drive_case import chain_case, single_cases
-from wearsim.simulation.wrap_life import wrap_of
+from wearsim.drive.wrap_life import wrap_of
 
 SLOW: dict[str, Any] = {
     "format_version": 1,

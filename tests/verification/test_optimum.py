@@ -18,12 +18,12 @@ import tomlkit
 from scipy.optimize import minimize_scalar
 
 import wearsim
+from wearsim.drive.part_life import new_peak_pressure
 from wearsim.geometry.outline import rotated
 from wearsim.mechanisms.strand.drive import StrandDrive
 from wearsim.result import Life
 from wearsim.runner.run_study import run_study
 from wearsim.runner.workers import Threads
-from wearsim.simulation import new_peak_pressure
 from wearsim.study.optimise.model import OptimiseStudy, blank_mass, load_optimise
 from wearsim.study.optimise.search import search
 from wearsim.study.optimise.trials import Candidate, Trials, front

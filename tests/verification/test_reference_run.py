@@ -13,8 +13,8 @@ import shapely
 
 import wearsim
 from tests.drives import depth_limit
+from wearsim.drive.wear_task import wear_task
 from wearsim.mechanisms.strand.contact import StrandMechanism
-from wearsim.simulation.wear_task import wear_task
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import power
 from wearsim.wear.problem import WearProblem

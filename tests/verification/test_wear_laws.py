@@ -17,9 +17,9 @@ import pytest
 import wearsim
 from tests.drives import LIGHT_WRAP, changed
 from wearsim.catalogue.catalogues import wear_laws
+from wearsim.drive.wear_task import wear_law
 from wearsim.errors import CaseError, ConvergenceError
 from wearsim.kernels.severity import t_gamma_rate
-from wearsim.simulation.wear_task import wear_law
 from wearsim.study.remaining.model import SingleReading, remaining_life
 from wearsim.wear.mate_clock import LubricatedClock, MateClock
 from wearsim.wear.running_in import CyclesPower

@@ -16,6 +16,7 @@ from wearsim.case.model import Case
 from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import DriveLife
+from wearsim.drive.part_life import simulate
 from wearsim.errors import CaseError, Fault, OutputError, check_ranges
 from wearsim.files import check_free, write_file
 from wearsim.geometry.wheel_outline import State
@@ -23,7 +24,6 @@ from wearsim.report.flank_view import case_of
 from wearsim.report.public_answer import Answer
 from wearsim.report.worn_flank import wheel_shapes
 from wearsim.result import WearResult
-from wearsim.simulation import simulate
 
 if TYPE_CHECKING:
     import pandas as pd

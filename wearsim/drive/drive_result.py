@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.chain.selection import RatingFinding, rating_warnings
 from wearsim.drive.drive_case import DriveCase, said_of_sprockets
+from wearsim.drive.wrap_life import part_band
 from wearsim.errors import WearsimError
 from wearsim.notebook import html_rows, one_line
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.result.ends import CHAIN, PartEnd, before_wear, earliest_life, first_end, part_ends
 from wearsim.result.lives import hours
 from wearsim.result.second_opinions import SecondOpinions
-from wearsim.simulation.wrap_life import part_band
 
 if TYPE_CHECKING:
     import pandas as pd

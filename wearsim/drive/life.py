@@ -8,9 +8,9 @@ from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 
 from wearsim.drive.drive_case import DriveCase, DriveSprocket
 from wearsim.drive.drive_result import DriveLife
+from wearsim.drive.part_life import simulate
 from wearsim.errors import ContactError, ConvergenceError, WearsimError
 from wearsim.result import WearResult
-from wearsim.simulation import simulate
 
 
 class _GivenUpError(Exception):

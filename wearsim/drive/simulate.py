@@ -6,15 +6,15 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any, cast, overload
 
 from wearsim.case.model import Case
+from wearsim.drive.part_life import simulate as simulate_single
 from wearsim.errors import WearsimError
 from wearsim.result import Life, WearResult
-from wearsim.simulation import simulate as simulate_single
 
 if TYPE_CHECKING:
+    from wearsim.drive.batch_lives import CaseLife
     from wearsim.drive.case_input import CaseInput
     from wearsim.drive.drive_case import DriveCase
     from wearsim.drive.drive_result import DriveLife
-    from wearsim.simulation.batch_lives import CaseLife
 
 
 @overload
@@ -120,7 +120,7 @@ def simulate_many(
     >>> found.life == wearsim.simulate(case).life
     True
     """
-    from wearsim.simulation.batch_lives import batched_lives
+    from wearsim.drive.batch_lives import batched_lives
 
     for single, group in groupby(cases, key=lambda case: isinstance(case, Case)):
         lives = batched_lives if single else _drive_lives
@@ -140,8 +140,8 @@ def _drive_lives(
 
 
 def _case_life(found: "DriveLife") -> "CaseLife":
+    from wearsim.drive.batch_lives import CaseLife
     from wearsim.drive.maintenance import part_lives
-    from wearsim.simulation.batch_lives import CaseLife
 
     lives = part_lives(found)
     ended = {name: life.hours for name, life in lives.items() if isinstance(life, Life)}

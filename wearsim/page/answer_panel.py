@@ -7,6 +7,7 @@ from nicegui import ui
 
 from wearsim.case.model import Case
 from wearsim.chain.selection import RatingFinding
+from wearsim.drive.part_life import simulate
 from wearsim.page.answers import Pictures, edited_case, estimate, is_slow, pictures
 from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, SketchView
@@ -28,7 +29,6 @@ from wearsim.report.html.run_charts import tooth_load_chart
 from wearsim.report.text_lines import stated_and_defaults
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.result.lives import hours
-from wearsim.simulation import simulate
 
 
 class AnswerPanel:

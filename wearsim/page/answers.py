@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from wearsim.case.model import Case
 from wearsim.drive.load_case import load_single
+from wearsim.drive.part_life import simulate
 from wearsim.errors import CaseError, Fault, WearsimError
 from wearsim.geometry.scene import Scene
 from wearsim.input.document import CaseText
@@ -15,7 +16,6 @@ from wearsim.report.html.margins import Margin, margins
 from wearsim.report.html.run_charts import along_chart, history_chart
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.result import WearResult
-from wearsim.simulation import simulate
 
 _ROUGH = {"mechanism.phases": 4, "sprocket.nodes": 101}
 """Most of what a first estimate takes of a wrap."""

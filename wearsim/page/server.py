@@ -11,12 +11,12 @@ from fastapi import FastAPI
 from nicegui import app, ui
 
 from wearsim.drive.load_case import load_single
+from wearsim.drive.part_life import simulate
 from wearsim.errors import WearsimError
 from wearsim.input.document import CaseText
 from wearsim.page.case_file import CaseFile
 from wearsim.page.editor import CasePage
 from wearsim.page.request_guard import Guard
-from wearsim.simulation import simulate
 
 _RECONNECT = 3600.0
 """Seconds that the input of a page is kept after its connection was lost, as when a lid is closed."""

@@ -7,11 +7,11 @@ from typing import Any
 
 from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase, chain_case
+from wearsim.drive.part_life import case_clock
 from wearsim.errors import CaseError, Fault
 from wearsim.lubrication.model import LubricationInput, RunningWay
 from wearsim.quantities import grouped
 from wearsim.readings.dated_rows import DatedRows, ServiceTime
-from wearsim.simulation import case_clock
 
 NEW, RELUBRICATION = "new", "relubrication"
 EVENTS = (NEW, RELUBRICATION)

@@ -136,7 +136,7 @@ def _assumptions(case: Case | DriveCase) -> tuple[str, ...]:
     """Return what is taken for granted before a run, and the film ratio where the oil is given."""
     if isinstance(case, DriveCase) or case.film is None:
         return case.assumptions
-    from wearsim.simulation.validity import film_assumptions
+    from wearsim.drive.validity import film_assumptions
 
     return (*film_assumptions(case), *case.assumptions)
 

@@ -8,13 +8,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from wearsim.drive.batch_lives import CaseLife
 from wearsim.drive.load_case import load_case
 from wearsim.drive.simulate import simulate_many
 from wearsim.errors import StudyError, WearsimError
 from wearsim.result import Life
 from wearsim.result.folder import with_files
 from wearsim.runner.design import Design, Engine, content_hash, engine
-from wearsim.simulation.batch_lives import CaseLife
 
 COLUMNS = (
     "case_index",

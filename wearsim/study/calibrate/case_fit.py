@@ -10,13 +10,13 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.chain.joint_wear import JointLaw
+from wearsim.drive.wrap_life import wrap_of
 from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.geometry.profile_points import Vector
 from wearsim.lubrication.keys import SCHEDULES
 from wearsim.readings.chain_readings import GAUGE
 from wearsim.runner.design import replaced
 from wearsim.runner.scatter import coefficient_key
-from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions, FittedCoefficient, PartLife
 from wearsim.study.calibrate.fit_warnings import (
     fit_assumptions,

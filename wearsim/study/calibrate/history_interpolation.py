@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 from wearsim.drive.load_case import load_single
+from wearsim.drive.part_life import simulate
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile_points import Vector
 from wearsim.runner.design import replaced
-from wearsim.simulation import simulate
 from wearsim.study.calibrate.predicted_history import PredictedHistory
 
 Taken = TypeVar("Taken", float, Vector)

@@ -6,8 +6,8 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.part_life import case_clock
 from wearsim.readings.relubrications import RelubricationLog, relubricated
-from wearsim.simulation import case_clock
 from wearsim.wear.mate_clock import LubricatedClock
 
 

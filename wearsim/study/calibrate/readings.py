@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wearsim.case.model import Case
+from wearsim.drive.wrap_life import wrap_of
 from wearsim.errors import CaseError, Fault
 from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
@@ -16,7 +17,6 @@ from wearsim.input.faults import Faults
 from wearsim.readings.chain_readings import ELONGATION, GAUGE, LENGTH, chain_cells, elongation_over
 from wearsim.readings.dated_rows import HOURS, DatedRows, ServiceTime, number, read_dated_rows, service_time
 from wearsim.readings.relubrications import EVENTS, RelubricationLog, event_faults, relubrication_log
-from wearsim.simulation.wrap_life import wrap_of
 
 if TYPE_CHECKING:
     import pandas as pd

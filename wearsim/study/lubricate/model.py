@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from wearsim.case.model import Case
+from wearsim.drive.part_life import case_clock
 from wearsim.errors import CaseError, Fault
 from wearsim.lubrication.clock import LubricantClock
 from wearsim.lubrication.model import ENDLESS, LubricationInput
 from wearsim.result import Life, LowerBound
-from wearsim.simulation import case_clock
 from wearsim.study.lubricate.intervals import (
     LubricationIntervals,
     MissedRelubrication,

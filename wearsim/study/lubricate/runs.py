@@ -10,13 +10,13 @@ from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_case
 from wearsim.drive.maintenance import part_lives
+from wearsim.drive.part_life import case_clock, simulate
+from wearsim.drive.wrap_life import chain_clock
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput
 from wearsim.lubrication.keys import APPLICATION, FADES, LASTS, RATES, SCHEDULES, SUPPLY
 from wearsim.result.ends import CHAIN, SPROCKET
-from wearsim.simulation import case_clock, simulate
-from wearsim.simulation.wrap_life import chain_clock
 from wearsim.study.lubricate.model import LubricatedDrive, LubricationStudy, check_ages, lubrication_study
 from wearsim.wear.running_in import WearClock
 

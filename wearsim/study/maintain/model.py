@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 
 from wearsim.case.keys import MaintenanceTable
 from wearsim.case.model import Case
+from wearsim.drive.part_life import simulate
+from wearsim.drive.wrap_life import wrap_of
 from wearsim.errors import CaseError, ContactError, ConvergenceError, WearsimError
 from wearsim.mechanisms.wrap.drive import WrapDrive, wrap_drive
 from wearsim.result import Life, LowerBound
 from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant
-from wearsim.simulation import simulate
-from wearsim.simulation.wrap_life import wrap_of
 from wearsim.study.maintain.reversed_sprocket import reversed_life
 from wearsim.study.maintain.tooth_count import ToothCount, meetings_around, variant
 

@@ -6,11 +6,11 @@ from numpy.typing import NDArray
 from wearsim.case.model import Case
 from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
 from wearsim.contact.stop_limits import LIMITS, StopLimit, deepest, stop_limit
+from wearsim.drive.wear_task import wear_law
+from wearsim.drive.wrap_life import wrap_of
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.result import Life, LowerBound, WearResult, life_of
-from wearsim.simulation.wear_task import wear_law
-from wearsim.simulation.wrap_life import wrap_of
 from wearsim.wear.problem import StartState, WearProblem
 from wearsim.wear.settled_run import advance_resting
 

@@ -10,11 +10,11 @@ import pandas as pd
 from wearsim.case.keys.study_tables import MeasureLimit
 from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase, single_cases
+from wearsim.drive.part_life import new_peak_pressure as single_peak_pressure
 from wearsim.errors import StudyError, WearsimError
 from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.design import Design
 from wearsim.runner.shard import loaded_cases
-from wearsim.simulation import new_peak_pressure as single_peak_pressure
 from wearsim.study.optimise.model import OptimiseStudy, blank_mass
 
 MAXIMISED = ("life_hours",)

@@ -9,6 +9,7 @@ import numpy as np
 
 from wearsim.case.model import Case, WearBand
 from wearsim.drive.drive_case import DriveCase, chain_case
+from wearsim.drive.wrap_life import chain_clock, wrap_of
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.drive import instead_of
@@ -25,7 +26,6 @@ from wearsim.readings.contradictions import (
 from wearsim.readings.dated_rows import day_after
 from wearsim.readings.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
 from wearsim.readings.relubrications import relubricated
-from wearsim.simulation.wrap_life import chain_clock, wrap_of
 
 _BEYOND, _POINTS = 1.1, 400
 """Part of the latest end of the life up to which the elongation is told, and at how many times."""

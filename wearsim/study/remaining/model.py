@@ -7,14 +7,14 @@ import numpy as np
 
 from wearsim.case.model import Case, WearBand
 from wearsim.drive.drive_case import DriveCase, chain_case
+from wearsim.drive.part_life import simulate
+from wearsim.drive.wrap_life import chain_clock, wrap_of
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.drive import instead_of
 from wearsim.readings.contradictions import JOINTS, TEETH, ambiguous_reading, band_warning
 from wearsim.result import Life, LowerBound
 from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant
-from wearsim.simulation import simulate
-from wearsim.simulation.wrap_life import chain_clock, wrap_of
 
 _CONSTANT = ("life times coefficient is constant: load and lubrication stay as they were",)
 

@@ -7,20 +7,14 @@ import numpy as np
 from wearsim.case.model import Case
 from wearsim.contact.engagement import FlankContact, Mechanism
 from wearsim.contact.hertz import peak_pressure
+from wearsim.drive.flank_grids import LEVELS, FlankRun, GridSearch, SettledLife, settle_grid
+from wearsim.drive.lubricant import late_relubrication
+from wearsim.drive.validity import few_cycles, film_assumptions, validity
+from wearsim.drive.wear_task import WearTask, clock_assumptions, limit_states, new_flank_pressure, wear_task
 from wearsim.errors import WearsimError
 from wearsim.geometry.profile_points import Vector, area_between, area_swept
 from wearsim.result import Life, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
-from wearsim.simulation.flank_grids import LEVELS, FlankRun, GridSearch, SettledLife, settle_grid
-from wearsim.simulation.lubricant import late_relubrication
-from wearsim.simulation.validity import few_cycles, film_assumptions, validity
-from wearsim.simulation.wear_task import (
-    WearTask,
-    clock_assumptions,
-    limit_states,
-    new_flank_pressure,
-    wear_task,
-)
 from wearsim.wear.accuracy import GridStudy, grid_study
 from wearsim.wear.loop import check_length, run_per_cycle
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
@@ -210,7 +204,7 @@ def _fatigue(
     """Return the lives until pitting; none where they are not asked for."""
     if case.fatigue is None:
         return {}
-    from wearsim.simulation.pitting import fatigue_parts
+    from wearsim.drive.pitting import fatigue_parts
 
     highest = case.fatigue.load_factor**0.5 * peak_pressure
     greatest = max((block.tension for block in case.drive.duty), default=1.0)

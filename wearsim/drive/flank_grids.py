@@ -4,7 +4,7 @@ from collections.abc import Generator, Sequence
 from dataclasses import dataclass, replace
 
 from wearsim.contact.engagement import FlankContact, Mechanism
-from wearsim.simulation.wear_task import WearTask
+from wearsim.drive.wear_task import WearTask
 from wearsim.wear.accuracy import depth_missed, exceeds, grid_error
 from wearsim.wear.trajectory import Trajectory, difference
 

@@ -10,12 +10,12 @@ from wearsim.case.model import Case, WearInput, heaviest_block
 from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.hertz import peak_pressure
 from wearsim.contact.stop_limits import StopLimit
+from wearsim.drive.lubricant import sliding_per_cycle
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.severity import FIRST, SECOND
 from wearsim.lubrication.clock import lubricant_clock
 from wearsim.result import LimitState
-from wearsim.simulation.lubricant import sliding_per_cycle
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import (
     LAWS,

@@ -20,11 +20,11 @@ def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) 
     """Wear the sprocket of a case until its first limit, as the public `wearsim.simulate` does."""
     case.drive.check(case)
     if case.drive.rests:
+        from wearsim.drive.wrap_life import simulate_wrap
         from wearsim.result.kept_runs import kept_or_run
-        from wearsim.simulation.wrap_life import simulate_wrap
 
         return kept_or_run(case, lambda: simulate_wrap(case, progress))
-    from wearsim.simulation.pointwise import simulate_points
+    from wearsim.drive.pointwise import simulate_points
 
     return simulate_points(case)
 
@@ -33,10 +33,10 @@ def verify_grid(case: Case) -> "GridStudy":
     """Run a case on three grids, of all, half and a quarter of its points."""
     tolerance = case.run.life_tolerance
     if case.drive.rests:
-        from wearsim.simulation.wrap_life import wrap_grid_study
+        from wearsim.drive.wrap_life import wrap_grid_study
 
         return wrap_grid_study(case, tolerance)
-    from wearsim.simulation.pointwise import points_grid_study
+    from wearsim.drive.pointwise import points_grid_study
 
     return points_grid_study(case, max(_TIGHTER * tolerance, _TIGHTEST))
 
@@ -44,20 +44,20 @@ def verify_grid(case: Case) -> "GridStudy":
 def case_clock(case: Case) -> "LubricatedClock":
     """Return the clock of the wear of a case, in its cycles, without a run."""
     if case.drive.rests:
-        from wearsim.simulation.wrap_life import wrap_of, wrap_task
+        from wearsim.drive.wrap_life import wrap_of, wrap_task
 
         return wrap_task(case, wrap_of(case).contact(case)).clock
-    from wearsim.simulation.wear_task import wear_task
+    from wearsim.drive.wear_task import wear_task
 
     return wear_task(case, case.drive.mechanism(case).contact).clock
 
 
 def new_peak_pressure(case: Case) -> float:
     """Return the highest pressure of a case on its new flanks, without a run."""
-    from wearsim.simulation.wear_task import new_flank_pressure, wear_law
+    from wearsim.drive.wear_task import new_flank_pressure, wear_law
 
     if case.drive.rests:
-        from wearsim.simulation.wrap_life import wrap_of
+        from wearsim.drive.wrap_life import wrap_of
         from wearsim.wear.resting_bodies import highest_load
 
         law = wear_law(case.wear, case.wear.coefficient)

@@ -10,14 +10,8 @@ from wearsim.case.model import Case
 from wearsim.chain.selection import rating_warnings
 from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit
-from wearsim.geometry.profile_points import Vector, area_between
-from wearsim.mechanisms.wrap.contact import WrapContact
-from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
-from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
-from wearsim.result.folder import with_files
-from wearsim.result.second_opinions import SecondOpinions, second_opinions
-from wearsim.simulation.lubricant import late_relubrication, with_knees
-from wearsim.simulation.wear_task import (
+from wearsim.drive.lubricant import late_relubrication, with_knees
+from wearsim.drive.wear_task import (
     WearTask,
     clock_assumptions,
     contact_clock,
@@ -25,6 +19,12 @@ from wearsim.simulation.wear_task import (
     task_of,
     wear_law,
 )
+from wearsim.geometry.profile_points import Vector, area_between
+from wearsim.mechanisms.wrap.contact import WrapContact
+from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
+from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
+from wearsim.result.folder import with_files
+from wearsim.result.second_opinions import SecondOpinions, second_opinions
 from wearsim.wear.accuracy import GridStudy, exceeds, grid_study
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_resting
 from wearsim.wear.law import WearLaw
@@ -261,7 +261,7 @@ def _fatigue(
     """Return the life of the sprocket until pitting; none where it is not asked for."""
     if case.fatigue is None:
         return {}
-    from wearsim.simulation.pitting import fatigue_parts
+    from wearsim.drive.pitting import fatigue_parts
 
     factor = case.fatigue.load_factor
     stresses = [

@@ -12,14 +12,14 @@ import numpy as np
 from wearsim.case.model import Case
 from wearsim.contact.engagement import FlankContact
 from wearsim.contact.hertz import half_width
+from wearsim.drive.flank_grids import LEVELS, FlankRun, GridSearch, SettledLife, settle_grid
+from wearsim.drive.lubricant import late_relubrication
+from wearsim.drive.validity import few_cycles, low_contact_ratio_in_the_end, wide_contact
+from wearsim.drive.wear_task import WearTask, wear_tasks
 from wearsim.errors import WearsimError
 from wearsim.kernels.hertz_wear import DEPTH, LOAD, RELATIVE, flank_rate
 from wearsim.kernels.rosenbrock import WORK_ROWS
 from wearsim.result import Life, LowerBound, life_of
-from wearsim.simulation.flank_grids import LEVELS, FlankRun, GridSearch, SettledLife, settle_grid
-from wearsim.simulation.lubricant import late_relubrication
-from wearsim.simulation.validity import few_cycles, low_contact_ratio_in_the_end, wide_contact
-from wearsim.simulation.wear_task import WearTask, wear_tasks
 from wearsim.wear.advance import advance_batch
 from wearsim.wear.problem import WearProblem
 from wearsim.wear.trajectory import Trajectory
@@ -261,7 +261,7 @@ def _half_width(task: WearTask[FlankContact], run: Trajectory) -> float:
 
 
 def _alone(case: Case) -> CaseLife | WearsimError:
-    from wearsim.simulation import simulate
+    from wearsim.drive.part_life import simulate
 
     try:
         result = simulate(case)
