@@ -17,11 +17,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from wearsim.contact.resting_engagement import RestingContact
+from wearsim.contact.resting_engagement import MateWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit, first_limit_met, jump_limit
 from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile_points import Vector
 from wearsim.wear.law import WearLaw
+from wearsim.wear.mate_leaps import MateLeaps
 from wearsim.wear.resting_bodies import StartState, WornBodies, WornState
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory
 
@@ -37,22 +38,26 @@ class Pace:
     growth: float  # of the depth of a step over the one before
     longest: float  # the most depth of a step
     steps_per_mate: int  # least number of steps in the life of a mate
+    leap: float  # the most depth of a leap over mates; 0 for no leaps
 
 
-BY_EVENTS = Pace(3e-5, 3e-5, 1.25, 0.01, 160)
+BY_EVENTS = Pace(3e-5, 3e-5, 1.25, 0.01, 160, 0.0)
 """Steps of which each presses every event once."""
 
-BY_STAGES = Pace(1e-3, 1e-3, 2.0, 0.03, 16)
+BY_STAGES = Pace(1e-3, 1e-3, 2.0, 0.03, 16, 0.06)
 """Steps of implicit stages."""
 
 _PART_OF_AGE = 0.1
 """Longest way between two snapshots as a part of the age of the mate, where parts run in."""
 
+_SHOWN = 10
+"""Ends of mates that are kept of a leap, at most."""
+
 Watch = Callable[[float], bool]
 """Told before every step how much of a run is done; whether to go on."""
 
 _MAX_STEPS = 10_000
-"""Steps of one run at level 0, those of about 60 mates; a run of more ends there, at no limit."""
+"""Steps of one run at level 0, those of about 600 mates in full; a run of more ends there, at no limit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +113,23 @@ class _Snapshots:
         self.add(bodies, last=True)
         self.ends.append(self.states[-1])
 
+    def leap(self, bodies: WornBodies) -> None:
+        """Add ends of the mates that a leap has passed since the last end, on a straight line."""
+        end, mates = self.ends[-1], bodies.mate - 1 - self.ends[-1].mate
+        after = replace(
+            end, x=bodies.x, y=bodies.y, depth=bodies.depth, removed=bodies.removed, cycles=bodies.cycles
+        )
+        shown = min(mates, _SHOWN)
+        for passed in (mates * place // shown for place in range(1, shown + 1)):
+            state = replace(end.on_the_way_to(after, passed / mates), mate=end.mate + passed)
+            self._add(state, last=True)
+            self.ends.append(state)
+
+    def go_back(self, cycles: float) -> None:
+        """Forget all that came after so many cycles."""
+        self.states = [state for state in self.states if state.cycles <= cycles]
+        self.ends = [state for state in self.ends if state.cycles <= cycles]
+
     def trajectory(self, bodies: WornBodies, met: StopLimit | None) -> RestingTrajectory:
         states = self.states
         x, y, depth = (np.array([getattr(state, name) for state in states]) for name in ("x", "y", "depth"))
@@ -137,6 +159,7 @@ class _StepSize:
         self.refined: float = 2.0**level
         self.rate = 0.0
         self.depth = pace.first * self.limit / self.refined
+        self.leap = pace.leap * self.limit / self.refined
 
     def restart(self) -> None:
         """Begin with a small step again."""
@@ -219,7 +242,7 @@ def run_resting(
     """Wear outlines and mate event by event until a stop limit is met or the horizon is reached.
 
     At its elongation limit the mate is replaced by a new one. A run by depth that takes too
-    many steps, those of about 60 mates, ends before its horizon.
+    many steps ends before its horizon.
     """
     pace = _StepSize(BY_EVENTS, stop_limits[0].limit, level, cycles_per_step)
     return _run(WornBodies(contact, law, start), pace, stop_limits, horizon, watch)
@@ -249,42 +272,69 @@ def run_seated(
 def _run(
     bodies: WornBodies, pace: _StepSize, stop_limits: tuple[StopLimit, ...], horizon: float, watch: Watch
 ) -> RestingTrajectory:
-    contact, record = bodies.contact, _Snapshots()
+    record, end = _Snapshots(), horizon * (1.0 - 1e-12)
+    leaps = MateLeaps(bodies, pace.leap, pace.refined, lambda: _holds_on(bodies, stop_limits, end, record))
     record.add(bodies)
-    met, end = None, horizon * (1.0 - 1e-12)
+    met, done = None, 0.0
     while (
         met is None
         and bodies.cycles < end
         and not pace.is_spent(bodies)
-        and watch(_done(stop_limits, bodies, horizon))
+        and watch(done := max(done, _done(stop_limits, bodies, horizon)))
     ):
         before = bodies.state()
         cycles = min(pace.cycles(bodies), horizon - bodies.cycles)
         try:
             worn = bodies.step(cycles)
             pace.rate = worn / (bodies.cycles - before.cycles)
-        except JumpError:
+        except (JumpError, ConvergenceError) as error:
             if bodies.cycles == 0.0:
                 raise
-            record.add(bodies, last=True)
-            return record.trajectory(bodies, jump_limit(contact.slack_tension))
-        except ConvergenceError as error:
-            if bodies.cycles == 0.0:
-                raise
-            # What is worn so far holds: the life is longer.
-            bodies.go_back(before)
-            record.add(bodies, last=True)
-            return replace(record.trajectory(bodies, None), lost=str(error))
+            if _taken_back(leaps, bodies, record, pace):
+                continue
+            return _stopped(bodies, before, record, error)
         met = _limit_met(stop_limits, bodies, before)
+        if met is not None and _taken_back(leaps, bodies, record, pace):
+            met = None
+            continue
         record.add_between(bodies, before)
         if met is None and bodies.mate_is_worn:
             record.end_mate(bodies)
             bodies.renew_mate()
             pace.restart()
+            leaps.take()
+            record.leap(bodies)
         else:
             record.add(bodies, last=met is not None)
     record.add(bodies, last=True)
     return record.trajectory(bodies, met)
+
+
+def _taken_back(leaps: MateLeaps, bodies: WornBodies, record: _Snapshots, pace: _StepSize) -> bool:
+    """Go back on a leap that is not settled, in all that knows of it; whether there was one."""
+    if not leaps.undo():
+        return False
+    record.go_back(bodies.cycles)
+    pace.restart()
+    return True
+
+
+def _holds_on(bodies: WornBodies, stop_limits: tuple[StopLimit, ...], end: float, record: _Snapshots) -> bool:
+    """Tell whether a mate may come to its end on the bodies within all limits."""
+    worn = MateWear(bodies.contact.elongation_limit, record.ends[-1].wear.depth)
+    within = bodies.cycles < end and _margins(stop_limits, bodies) > 0.0
+    return within and bodies.contact.holds(bodies.x, bodies.y, worn)
+
+
+def _stopped(
+    bodies: WornBodies, before: WornState, record: _Snapshots, error: JumpError | ConvergenceError
+) -> RestingTrajectory:
+    """Return what is worn before a step whose mates are not found: it holds, the life is longer."""
+    bodies.go_back(before)
+    record.add(bodies, last=True)
+    if isinstance(error, JumpError):
+        return record.trajectory(bodies, jump_limit(bodies.contact.slack_tension))
+    return replace(record.trajectory(bodies, None), lost=str(error))
 
 
 def _limit_met(stop_limits: tuple[StopLimit, ...], bodies: WornBodies, before: WornState) -> StopLimit | None:
