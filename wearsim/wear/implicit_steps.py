@@ -16,10 +16,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wearsim.contact.resting_engagement import RestingContact
+from wearsim.contact.resting_engagement import MateWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit, jump_limit
 from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile_points import Vector
+from wearsim.wear.mate_leaps import MateLeaps
 from wearsim.wear.problem import Rows, WearProblem, first_place
 from wearsim.wear.resting_bodies import WornBodies, WornState
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory
@@ -34,22 +35,26 @@ class Pace:
     growth: float  # of the depth of a step over the one before
     longest: float  # the most depth of a step
     steps_per_mate: int  # least number of steps in the life of a mate
+    leap: float  # the most depth of a leap over mates; 0 for no leaps
 
 
-BY_EVENTS = Pace(3e-5, 3e-5, 1.25, 0.01, 160)
+BY_EVENTS = Pace(3e-5, 3e-5, 1.25, 0.01, 160, 0.0)
 """Steps of which each presses every event once."""
 
-BY_STAGES = Pace(1e-3, 1e-3, 2.0, 0.03, 16)
+BY_STAGES = Pace(1e-3, 1e-3, 2.0, 0.03, 16, 0.06)
 """Steps of implicit stages."""
 
 _PART_OF_AGE = 0.1
 """Longest way between two snapshots as a part of the age of the mate, where parts run in."""
 
+_SHOWN = 10
+"""Ends of mates that are kept of a leap, at most."""
+
 Watch = Callable[[float], bool]
 """Told before every step how much of a run is done; whether to go on."""
 
 _MAX_STEPS = 10_000
-"""Steps of one run at level 0, those of about 60 mates; a run of more ends there, at no limit."""
+"""Steps of one run at level 0, those of about 600 mates in full; a run of more ends there, at no limit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +110,23 @@ class _Snapshots:
         self.add(bodies, last=True)
         self.ends.append(self.states[-1])
 
+    def leap(self, bodies: WornBodies) -> None:
+        """Add ends of the mates that a leap has passed since the last end, on a straight line."""
+        end, mates = self.ends[-1], bodies.mate - 1 - self.ends[-1].mate
+        after = replace(
+            end, x=bodies.x, y=bodies.y, depth=bodies.depth, removed=bodies.removed, cycles=bodies.cycles
+        )
+        shown = min(mates, _SHOWN)
+        for passed in (mates * place // shown for place in range(1, shown + 1)):
+            state = replace(end.on_the_way_to(after, passed / mates), mate=end.mate + passed)
+            self._add(state, last=True)
+            self.ends.append(state)
+
+    def go_back(self, cycles: float) -> None:
+        """Forget all that came after so many cycles."""
+        self.states = [state for state in self.states if state.cycles <= cycles]
+        self.ends = [state for state in self.ends if state.cycles <= cycles]
+
     def trajectory(self, bodies: WornBodies, met: StopLimit | None) -> RestingTrajectory:
         states = self.states
         x, y, depth = (np.array([getattr(state, name) for state in states]) for name in ("x", "y", "depth"))
@@ -134,6 +156,7 @@ class _StepSize:
         self.refined: float = 2.0**level
         self.rate = 0.0
         self.depth = pace.first * self.limit / self.refined
+        self.leap = pace.leap * self.limit / self.refined
 
     def restart(self) -> None:
         """Begin with a small step again."""
@@ -192,7 +215,7 @@ def run_resting(
     """Wear outlines and mate event by event until a stop limit is met or the horizon is reached.
 
     At its elongation limit the mate is replaced by a new one. A run by depth that takes too
-    many steps, those of about 60 mates, ends before its horizon.
+    many steps ends before its horizon.
     """
     pace = _StepSize(BY_EVENTS, problem.depth_limit, level, cycles_per_step)
     return _run(problem, WornBodies(problem), pace, watch)
@@ -215,33 +238,38 @@ def run_seated(
 def _run(
     problem: WearProblem[RestingContact], bodies: WornBodies, pace: _StepSize, watch: Watch
 ) -> RestingTrajectory:
-    contact, horizon, record = problem.contact, problem.horizon, _Snapshots()
+    record, end = _Snapshots(), problem.horizon * (1.0 - 1e-12)
+    leaps = MateLeaps(bodies, pace.leap, pace.refined, lambda: _holds_on(problem, bodies, end, record))
     record.add(bodies)
-    met, end = None, horizon * (1.0 - 1e-12)
-    while met is None and bodies.cycles < end and not pace.is_spent(bodies) and watch(_done(problem, bodies)):
+    met, done = None, 0.0
+    while (
+        met is None
+        and bodies.cycles < end
+        and not pace.is_spent(bodies)
+        and watch(done := max(done, _done(problem, bodies)))
+    ):
         before = bodies.state()
-        cycles = min(pace.cycles(bodies), horizon - bodies.cycles)
+        cycles = min(pace.cycles(bodies), problem.horizon - bodies.cycles)
         try:
             worn = bodies.step(cycles)
             pace.rate = worn / (bodies.cycles - before.cycles)
-        except JumpError:
+        except (JumpError, ConvergenceError) as error:
             if bodies.cycles == 0.0:
                 raise
-            record.add(bodies, last=True)
-            return record.trajectory(bodies, jump_limit(contact.slack_tension))
-        except ConvergenceError as error:
-            if bodies.cycles == 0.0:
-                raise
-            # What is worn so far holds: the life is longer.
-            bodies.go_back(before)
-            record.add(bodies, last=True)
-            return replace(record.trajectory(bodies, None), lost=str(error))
+            if _taken_back(leaps, bodies, record, pace):
+                continue
+            return _stopped(bodies, before, record, error)
         met = _limit_met(problem, bodies, before)
+        if met is not None and _taken_back(leaps, bodies, record, pace):
+            met = None
+            continue
         record.add_between(bodies, before)
         if met is None and bodies.mate_is_worn:
             record.end_mate(bodies)
             bodies.renew_mate()
             pace.restart()
+            leaps.take()
+            record.leap(bodies)
         else:
             record.add(bodies, last=met is not None)
     record.add(bodies, last=True)
@@ -250,6 +278,35 @@ def _run(
 
 def _done(problem: WearProblem[RestingContact], bodies: WornBodies) -> float:
     return min(1.0, max(float(bodies.depth.max()) / problem.depth_limit, bodies.cycles / problem.horizon))
+
+
+def _taken_back(leaps: MateLeaps, bodies: WornBodies, record: _Snapshots, pace: _StepSize) -> bool:
+    """Go back on a leap that is not settled, in all that knows of it; whether there was one."""
+    if not leaps.undo():
+        return False
+    record.go_back(bodies.cycles)
+    pace.restart()
+    return True
+
+
+def _holds_on(
+    problem: WearProblem[RestingContact], bodies: WornBodies, end: float, record: _Snapshots
+) -> bool:
+    """Tell whether a mate may come to its end on the bodies within all limits."""
+    worn = MateWear(problem.contact.elongation_limit, record.ends[-1].wear.depth)
+    within = bodies.cycles < end and _met(problem, bodies) is None
+    return within and problem.contact.holds(bodies.x, bodies.y, worn)
+
+
+def _stopped(
+    bodies: WornBodies, before: WornState, record: _Snapshots, error: JumpError | ConvergenceError
+) -> RestingTrajectory:
+    """Return what is worn before a step whose mates are not found: it holds, the life is longer."""
+    bodies.go_back(before)
+    record.add(bodies, last=True)
+    if isinstance(error, JumpError):
+        return record.trajectory(bodies, jump_limit(bodies.contact.slack_tension))
+    return replace(record.trajectory(bodies, None), lost=str(error))
 
 
 def _met(problem: WearProblem[RestingContact], bodies: WornBodies) -> StopLimit | None:

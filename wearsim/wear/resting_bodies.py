@@ -33,6 +33,7 @@ from wearsim.kernels.wrap_wear import (
     SPEED_EXPONENT,
     TOLERANCE,
     UNBALANCED,
+    recede,
     wear_events,
 )
 from wearsim.wear.law import WearLaw
@@ -202,6 +203,24 @@ class WornBodies:
         """Put on a new mate."""
         self.wear, self.mate = NEW_MATE, self.mate + 1
         self.mate_in_use = self.mates.put_on(self.cycles)
+
+    @property
+    def mates_are_alike(self) -> bool:
+        """Whether clocks are steady and the hard layer whole: each mate does what the last one did."""
+        steady = self.running_in.is_steady and self.mates.bodies.is_steady and self.mates.mate.is_steady
+        return steady and float(self.depth.max()) < self.numbers[CASE_DEPTH]
+
+    def begin_mate(self, area: Rows, removed: float, cycles: float, mate: int) -> None:
+        """Put a new mate on bodies that have lost so much area, per unworn length and in all, by then."""
+        self.area, self.removed = area, removed
+        self.recede()
+        self.wear, self.cycles, self.mate = NEW_MATE, cycles, mate
+        self.mate_in_use = self.mates.put_on(cycles)
+
+    def recede(self) -> None:
+        """Move outlines and depth to the area that is worn."""
+        for area, depth, x, y in zip(self.area, self.depth, self.x, self.y, strict=True):
+            recede(area, depth, x, y, self.unworn, 0, area.size)
 
     def press(self, table: Rows, cycles: float) -> None:
         """Let events wear the bodies."""

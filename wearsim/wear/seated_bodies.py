@@ -13,7 +13,7 @@ import numpy as np
 
 from wearsim.contact.resting_engagement import MateWear, RestingContact
 from wearsim.errors import ContactError, ConvergenceError, JumpError
-from wearsim.kernels.wrap_wear import AREA, HARD_AREA, SPACING, UNWORN_CURVATURE, recede
+from wearsim.kernels.wrap_wear import AREA, HARD_AREA, SPACING, UNWORN_CURVATURE
 from wearsim.wear.problem import Rows, WearProblem
 from wearsim.wear.resting_bodies import WornBodies
 
@@ -78,6 +78,11 @@ class SeatedBodies(WornBodies):
         """Put on a new mate, which rests elsewhere."""
         super().renew_mate()
         self.seated = False
+
+    def begin_mate(self, area: Rows, removed: float, cycles: float, mate: int) -> None:
+        """Put a new mate on bodies whose hard layer has lost so much area by then."""
+        super().begin_mate(area, removed, cycles, mate)
+        self.works, self.seated = self.area.copy(), False
 
     def step(self, cycles: float) -> float:
         """Wear for so many cycles, or for a part of them where the mates are not found after all."""
@@ -148,8 +153,7 @@ class SeatedBodies(WornBodies):
         self.wear = self._mate_after(cycles, hard_area)
         self.hard_rate = hard_area / cycles
         self.works, self.area = works, area
-        for body in range(self.contact.bodies):
-            recede(area[body], self.depth[body], self.x[body], self.y[body], self.unworn, 0, area.shape[1])
+        self.recede()
         self.removed += worn
         self.cycles += cycles
         self.updates += 1
