@@ -13,13 +13,14 @@ WEARSIM = Path(sys.executable).with_name("wearsim")
 STARTED = """\
 import signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
+import dataclasses
 import wearsim.wear.loop
 run = wearsim.wear.loop.run_per_cycle
 
-def started(contact, law, stop_limits, horizon, cycles_per_update):
-    run(contact, law, stop_limits, 100.0, 1)
+def started(problem, cycles_per_update):
+    run(dataclasses.replace(problem, horizon=100.0), 1)
     print("started", flush=True)
-    return run(contact, law, stop_limits, horizon, cycles_per_update)
+    return run(problem, cycles_per_update)
 
 wearsim.wear.loop.run_per_cycle = started
 import wearsim.cli
