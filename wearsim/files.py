@@ -7,6 +7,7 @@ import re
 import shutil
 import sys
 import tempfile
+import threading
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import IO
@@ -192,7 +193,12 @@ def write_file(path: Path, content: str | bytes, force: bool) -> None:
         raise OutputError(f"{path}: must be writable: {error.strerror or error}") from None
 
 
+_UMASK = threading.Lock()
+
+
 def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
+    # It can be read only by setting it, for all threads.
+    with _UMASK:
+        mask = os.umask(0)
+        os.umask(mask)
     return mask

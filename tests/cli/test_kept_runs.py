@@ -155,6 +155,61 @@ def test_another_program_keeps_other_runs(monkeypatch, two_sprockets):
         kept_runs._program.cache_clear()
 
 
+def test_a_program_that_was_edited_meanwhile_keeps_nothing(keeping, runs, monkeypatch):
+    case = single_cases(wearsim.load_case("drive.toml"))["roll"]
+    monkeypatch.setattr(kept_runs, "_since", 0.0)
+    simulate(case)
+    simulate(case)
+    assert runs == [20, 20]
+    assert not keeping.exists()
+
+
+def test_mechanisms_of_others_and_what_has_no_hash_are_run(keeping, runs):
+    case = single_cases(wearsim.load_case("drive.toml"))["roll"]
+    other = type("OtherDrive", (type(case.drive),), {"__module__": "elsewhere"})
+    drive = object.__new__(other)
+    vars(drive).update(vars(case.drive))
+    for _ in range(2):
+        simulate(replace(case, drive=drive))
+        simulate(replace(case, inputs={**case.inputs, "title": {1, 2}}))
+    assert runs == [20] * 4
+    assert not keeping.exists()
+
+
+def test_inputs_name_their_files_as_a_run_does(keeping, tmp_path, two_sprockets):
+    """A result names the files of a case without their folder."""
+    (tmp_path / "data").mkdir()
+    log = "time_s,speed_rpm,tension_N\n0,300,400\n60,300,500\n120,300,500\n"
+    (tmp_path / "data" / "log.csv").write_text(log)
+    tables = tomllib.loads(two_sprockets)
+    tables["load"] = {"duty_file": str(tmp_path / "data" / "log.csv")}
+    case = single_cases(wearsim.load_case(tables))["roll"]
+    run, read = simulate(case), simulate(case)
+    assert run is not read
+    assert run.inputs["load"]["duty_file"] == read.inputs["load"]["duty_file"] == "log.csv"
+    assert run.inputs == read.inputs
+
+
+def test_a_user_without_a_home_has_no_kept_runs(cli, kept, monkeypatch):
+    def nowhere(name):
+        raise RuntimeError("could not determine the home directory")
+
+    monkeypatch.delenv("WEARSIM_RUNS")
+    monkeypatch.setattr(kept_runs.platformdirs, "user_cache_dir", nowhere)
+    done = cli("life", "drive.toml")
+    assert (done.code, done.err) == (0, "")
+
+
+def test_what_killed_writers_left_goes(keeping):
+    keeping.mkdir()
+    old, new = (keeping / f".{name}.run.x7" for name in ("old", "new"))
+    old.write_text("half")
+    new.write_text("half")
+    os.utime(old, (0.0, 0.0))
+    simulate(single_cases(wearsim.load_case("drive.toml"))["roll"])
+    assert not old.exists() and new.exists()
+
+
 def test_a_damaged_file_is_run_anew(keeping, runs):
     """Cut at any place, one byte changed, that of another run, none of ours."""
     cases = single_cases(wearsim.load_case("drive.toml"))

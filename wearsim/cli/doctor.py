@@ -119,7 +119,7 @@ def _kept_runs() -> InstallationCheck:
 
     name, folder = "kept runs", runs_folder()
     if folder is None:
-        return InstallationCheck(name, "ok", f"none, as {FOLDER} is empty")
+        return InstallationCheck(name, "ok", f"none: {FOLDER} is empty, or this user has no home")
     sizes = [status.st_size for _, status in kept_files(folder)]
     return InstallationCheck(name, "ok", f"{folder}: {len(sizes)} files, {sum(sizes) / 1e6:.1f} MB")
 

@@ -9,6 +9,7 @@ import hashlib
 import io
 import json
 import os
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass, replace
 from functools import cache
@@ -21,7 +22,8 @@ import platformdirs
 import wearsim
 from wearsim.case.model import Case
 from wearsim.files import write_file
-from wearsim.result.folder import fields_of_result, stored_result
+from wearsim.jit.machine_code import file_ending
+from wearsim.result.folder import fields_of_result, stored_result, with_files
 from wearsim.result.wear_result import WearResult, environment
 
 FOLDER = "WEARSIM_RUNS"
@@ -30,8 +32,13 @@ FOLDER = "WEARSIM_RUNS"
 _MOST_BYTES = 200_000_000
 """Size of all runs that are kept; those that were used longest ago go first."""
 
+_LEFT_FOR = 3600.0
+"""Seconds after which a file that is not renamed yet has no writer any more."""
+
 _NOT_ITS_CONTENT = ("name", "title", "given")
 """Attributes of a case that no number of its run depends on."""
+
+_ROOT = Path(wearsim.__file__).parent
 
 _TABLES = ("history", "flank")
 
@@ -40,40 +47,54 @@ _DIGEST_BYTES = hashlib.sha256().digest_size
 """A file begins with the hash of the rest, by which one is known that is not whole."""
 
 _folder: Path | None = None
+_since = 0.0  # when runs began to be kept
 
 
 def keep_runs(folder: Path | None) -> None:
     """Have runs kept in a folder from now on, by all threads of this process; with None no more."""
-    global _folder
-    _folder = folder
+    global _folder, _since
+    _folder, _since = folder, time.time()
 
 
 def runs_folder() -> Path | None:
     """Return the folder of kept runs, that of ``WEARSIM_RUNS`` or the user's; None where none are kept."""
     chosen = os.environ.get(FOLDER)
-    if chosen is None:
+    if chosen is not None:
+        return Path(chosen) if chosen else None
+    try:
         return Path(platformdirs.user_cache_dir("wearsim")) / "runs"
-    return Path(chosen) if chosen else None
+    except RuntimeError:  # a user without a home
+        return None
 
 
 def kept_or_run(case: Case, run: Callable[[], WearResult]) -> WearResult:
     """Return the run of a case that is kept; else run it, and keep it."""
-    if _folder is None:
+    folder = _folder
+    ours = type(case.drive).__module__.startswith(f"{wearsim.__name__}.")
+    if folder is None or not ours or not _is_as_begun():
         return run()
-    key = content_hash(case)
-    file = _folder / f"{key}{_ENDING}"
+    try:
+        key = content_hash(case)
+    except TypeError:
+        return run()
+    file = folder / f"{key}{_ENDING}"
     found = _read(file, key, case)
-    if found is None:
-        found = run()
-        # A cache that cannot be written costs time and nothing else.
-        with contextlib.suppress(OSError):
+    if found is not None:
+        return found
+    found = run()
+    # A cache that cannot be written costs time and nothing else, and what is no number is not kept.
+    with contextlib.suppress(OSError, ValueError):
+        if _is_as_begun():
             write_file(file, _written(found, key), force=True)
-            _limit_size(_folder)
+            _limit_size(folder)
     return found
 
 
 def content_hash(case: Case) -> str:
-    """Return the hash of a case number by number, and of what else its run depends on."""
+    """Return the hash of a case number by number, and of what else its run depends on.
+
+    Raises `TypeError` where a case holds what has no hash.
+    """
     digest = hashlib.sha256(_program())
     for field in fields(case):
         if field.name not in _NOT_ITS_CONTENT:
@@ -83,13 +104,23 @@ def content_hash(case: Case) -> str:
 
 @cache
 def _program() -> bytes:
-    """Return the hash of this program, its tables and its libraries."""
-    digest = hashlib.sha256(json.dumps(environment()).encode())
-    root = Path(wearsim.__file__).parent
-    for path in sorted(path for path in root.rglob("*") if path.suffix in (".py", ".csv", ".toml")):
-        digest.update(path.relative_to(root).as_posix().encode())
+    """Return the hash of wearsim and its libraries, and of the processor that machine code is made for."""
+    digest = hashlib.sha256(json.dumps([environment(), file_ending()]).encode())
+    for path in sorted(_sources()):
+        digest.update(path.relative_to(_ROOT).as_posix().encode())
         digest.update(path.read_bytes())
     return digest.digest()
+
+
+def _sources() -> list[Path]:
+    """Return the files of wearsim that a run depends on."""
+    kinds = (".py", ".csv", ".toml")
+    return [path for path in _ROOT.rglob("*") if path.suffix in kinds and path.is_file()]
+
+
+def _is_as_begun() -> bool:
+    """Whether no file of wearsim has been edited since runs are kept: what runs is what the files say."""
+    return max(path.stat().st_mtime for path in _sources()) <= _since
 
 
 def _add(update: Callable[[bytes], None], value: Any) -> None:
@@ -149,13 +180,18 @@ def _read(file: Path, key: str, case: Case) -> WearResult | None:
         return None
     with contextlib.suppress(OSError):
         os.utime(file)
-    known = fields_of_result(stored, case.inputs, case.input_files, tables["history"], tables["flank"])
+    inputs = with_files(case.inputs, "")
+    known = fields_of_result(stored, inputs, case.input_files, tables["history"], tables["flank"])
     found = WearResult(**{**known, "environment": stored["environment"]})
     return replace(found, case=case.name, title=case.title)
 
 
 def _limit_size(folder: Path) -> None:
-    """Remove the runs that were used longest ago, until the others are small enough."""
+    """Remove what killed writers left, and the runs used longest ago until the others are small enough."""
+    for path in folder.glob(f".*{_ENDING}.*"):
+        with contextlib.suppress(OSError):
+            if time.time() - path.stat().st_mtime > _LEFT_FOR:
+                path.unlink()
     files = [(status.st_mtime_ns, status.st_size, path) for path, status in kept_files(folder)]
     size = sum(bytes_ for _, bytes_, _ in files)
     for _, bytes_, path in sorted(files):
@@ -169,6 +205,6 @@ def kept_files(folder: Path) -> list[tuple[Path, os.stat_result]]:
     """Return the kept runs of a folder with what is known of their files; another writer may remove some."""
     found = []
     for path in folder.glob(f"*{_ENDING}"):
-        with contextlib.suppress(FileNotFoundError):
+        with contextlib.suppress(OSError):
             found.append((path, path.stat()))
     return found

@@ -57,7 +57,8 @@ class MateLeaps:
         work, self.area = bodies.area - self.area, bodies.area.copy()
         self.settled += 1
         lived = bodies.mate - self.first
-        if self.settled < _BETWEEN or lived < _BEFORE or not bodies.mates_are_alike:
+        settled = self.settled >= _BETWEEN and lived >= _BEFORE and bodies.mates_are_alike
+        if not (settled and self.deepest > 0.0 and work.max() > 0.0):
             return
         mates = int(min(self.deepest / float(work.max()), _PART * lived / self.refined, self.most))
         start = self.area, bodies.removed, bodies.cycles, bodies.mate

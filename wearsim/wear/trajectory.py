@@ -61,7 +61,7 @@ def check_touch(
         point = int(pulling.argmax())
         raise ContactError(
             f"contact at cycle {cycles:.6g}, {contact.arc_length[point]:.4g} mm from the root: the flank "
-            "must press on the {contact.mate} (pressure angle below 90 degrees), but is worn so far that it "
+            f"must press on the {contact.mate} (pressure angle below 90 degrees), but is worn so far that it "
             "would pull there: move contact_end_mm away from the line of the pitch point, or stop at a "
             "smaller depth"
         )
