@@ -98,7 +98,9 @@ def used(file: Path) -> tuple[float, float]:
     """Seconds of a processor, and on a clock, that the life of a file takes."""
     start, before = time.perf_counter(), os.times()
     subprocess.run(
-        [sys.executable, "-c", PROGRAM, "-q", "life", str(file)], check=True, stdout=subprocess.DEVNULL
+        [sys.executable, "-c", PROGRAM, "-q", "life", "--fresh", str(file)],
+        check=True,
+        stdout=subprocess.DEVNULL,
     )
     after = os.times()
     spent = sum(getattr(after, name) - getattr(before, name) for name in ("children_user", "children_system"))

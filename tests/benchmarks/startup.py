@@ -130,7 +130,8 @@ def page(roots: list[Path]) -> Iterator[str]:
 def used(root: Path, arguments: list[str], cold: bool) -> tuple[float, float]:
     """Seconds of a processor and on a clock that a command takes whose modules are in bytecode."""
     with tempfile.TemporaryDirectory() as empty:
-        variables = {**os.environ, "PYTHONPATH": str(root), "PYTHONPYCACHEPREFIX": BYTECODE}
+        own = {"PYTHONPATH": str(root), "PYTHONPYCACHEPREFIX": BYTECODE, "WEARSIM_RUNS": ""}
+        variables = {**os.environ, **own}
         variables |= {"NUMBA_CACHE_DIR": empty} if cold else {}
         variables.pop("PYTHONDONTWRITEBYTECODE", None)
         command = [sys.executable, "-c", PROGRAM, *arguments]

@@ -25,7 +25,7 @@ from collections.abc import Iterable, Iterator
 from datetime import date
 from pathlib import Path
 
-os.environ |= {"SOURCE_DATE_EPOCH": "0", "TZ": "UTC", "COLUMNS": "100", "NO_COLOR": "1"}
+os.environ |= {"SOURCE_DATE_EPOCH": "0", "TZ": "UTC", "COLUMNS": "100", "NO_COLOR": "1", "WEARSIM_RUNS": ""}
 
 import openpyxl
 import tomlkit
