@@ -86,18 +86,23 @@ def keep(code: bytes, path: Path) -> None:
     """Write an object file, or none on a full disk; renamed, so that others never see a part of it."""
     with contextlib.suppress(OSError), tempfile.TemporaryDirectory(dir=path.parent) as folder:
         beside = Path(folder) / path.name
-        beside.write_bytes(hashlib.sha256(code).digest() + code)
+        beside.write_bytes(sealed(code))
         os.replace(beside, path)
 
 
+def sealed(content: bytes) -> bytes:
+    """Return what a file holds that `kept` knows to be whole: the content after its hash."""
+    return hashlib.sha256(content).digest() + content
+
+
 def kept(path: Path) -> bytes | None:
-    """Return the code of an object file, or nothing where there is none or it is damaged."""
+    """Return the sealed content of a file, or nothing where there is none or it is damaged."""
     try:
-        content = path.read_bytes()
+        whole = path.read_bytes()
     except OSError:
         return None
-    code = content[_HASH:]
-    return code if hashlib.sha256(code).digest() == content[:_HASH] else None
+    content = whole[_HASH:]
+    return content if sealed(content) == whole else None
 
 
 class MachineCode:

@@ -11,7 +11,7 @@ import json
 import os
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import fields, is_dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -22,7 +22,7 @@ import platformdirs
 import wearsim
 from wearsim.case.model import Case
 from wearsim.files import write_file
-from wearsim.jit.machine_code import file_ending
+from wearsim.jit.machine_code import file_ending, kept, sealed
 from wearsim.result.folder import fields_of_result, stored_result, with_files
 from wearsim.result.wear_result import WearResult, environment
 
@@ -43,8 +43,6 @@ _ROOT = Path(wearsim.__file__).parent
 _TABLES = ("history", "flank")
 
 _ENDING = ".run"
-_DIGEST_BYTES = hashlib.sha256().digest_size
-"""A file begins with the hash of the rest, by which one is known that is not whole."""
 
 _folder: Path | None = None
 _since = 0.0  # when runs began to be kept
@@ -112,6 +110,7 @@ def _program() -> bytes:
     return digest.digest()
 
 
+@cache
 def _sources() -> list[Path]:
     """Return the files of wearsim that a run depends on."""
     kinds = (".py", ".csv", ".toml")
@@ -120,7 +119,10 @@ def _sources() -> list[Path]:
 
 def _is_as_begun() -> bool:
     """Whether no file of wearsim has been edited since runs are kept: what runs is what the files say."""
-    return max(path.stat().st_mtime for path in _sources()) <= _since
+    try:
+        return max(path.stat().st_mtime for path in _sources()) <= _since
+    except OSError:  # one is gone
+        return False
 
 
 def _add(update: Callable[[bytes], None], value: Any) -> None:
@@ -156,18 +158,13 @@ def _written(result: WearResult, key: str) -> bytes:
     np.savez_compressed(
         file, result=np.array(json.dumps(stored, allow_nan=False)), allow_pickle=False, **columns
     )
-    content = file.getvalue()
-    return hashlib.sha256(content).digest() + content
+    return sealed(file.getvalue())
 
 
 def _read(file: Path, key: str, case: Case) -> WearResult | None:
     """Return the result in a file; None where there is none, or the file is not whole or of another run."""
-    try:
-        content = file.read_bytes()
-    except OSError:
-        return None
-    digest, content = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
-    if hashlib.sha256(content).digest() != digest:
+    content = kept(file)
+    if content is None:
         return None
     tables: dict[str, dict[str, Any]] = {table: {} for table in _TABLES}
     with np.load(io.BytesIO(content), allow_pickle=False) as entries:
@@ -182,8 +179,8 @@ def _read(file: Path, key: str, case: Case) -> WearResult | None:
         os.utime(file)
     inputs = with_files(case.inputs, "")
     known = fields_of_result(stored, inputs, case.input_files, tables["history"], tables["flank"])
-    found = WearResult(**{**known, "environment": stored["environment"]})
-    return replace(found, case=case.name, title=case.title)
+    own = {"case": case.name, "title": case.title, "environment": stored["environment"]}
+    return WearResult(**{**known, **own})
 
 
 def _limit_size(folder: Path) -> None:
