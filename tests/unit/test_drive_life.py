@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.drive import life
 from wearsim.drive.drive_case import said_of_sprockets
 from wearsim.drive.life import drive_life
@@ -55,6 +56,16 @@ def test_cogs_are_named_once(wheels):
         "cassette 13T, 15T, 17T: error 0.083 to 0.12 exceeds 0.05",
         "cassette 13T: 1 tooth of 2",
     )
+
+
+def test_all_sprockets_have_the_joints_of_the_lubricant():
+    """They have one chain: what wears its joints is not another on a sprocket with a [wear] of its own."""
+    own = {"teeth": 20, "profile": "iso606", "nodes": 31, "wear": {"condition": "hardened, dry"}}
+    tables = {key: value for key, value in DRIVE.items() if key != "wear"}
+    drive = load_drive({**tables, "sprocket": [RING, own], "lubrication": {"lubricant": "greased"}})
+    laws = [one.drive.joint.law for one in drive.sprockets]
+    assert laws[0] == laws[1]
+    assert laws[0].coefficient == wear_conditions()["normalised, greased"].joint_typical
 
 
 def test_all_cogs_are_their_cassette(wheels):

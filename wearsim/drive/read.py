@@ -23,6 +23,7 @@ from wearsim.drive.wheels import (
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import Document
 from wearsim.input.faults import Faults
+from wearsim.lubrication.keys import with_wear_condition
 from wearsim.mechanisms.wrap.build import read
 from wearsim.mechanisms.wrap.drive import WrapLoad, wrap_drive
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
@@ -269,7 +270,8 @@ def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) 
     if "wear" in wheel.own:
         tables["wear"] = wheel.own["wear"]
         # All sprockets have one chain: its joints take the state of the drive, not that of this sprocket.
-        of_drive = table_of({"wear": data.get("wear", driver.own.get("wear", {}))}, "wear").get("condition")
+        shared = with_wear_condition(data).get("wear", driver.own.get("wear", {}))
+        of_drive = table_of({"wear": shared}, "wear").get("condition")
         tables["joint"] = {"condition": of_drive or USUAL_CONDITION, **table_of(data, "joint")}
     if wheel.place.price is not None:
         tables["maintenance"] = {**table_of(data, "maintenance"), "sprocket_price": wheel.place.price}
