@@ -349,6 +349,11 @@ speed_rpm = 300
         (("speed_rpm = 300", "speed_rpm = -300"), 17, "must be greater than or equal to"),
         (("teeth = 20", "teeth = 21\nengaged_every = 2"), 11, "must divide the number of teeth"),
         (("[drive]", '[[sprocket]]\nteeth = 9\nprofile = "iso606"\n[drive]'), 4, "more than two"),
+        (("teeth = 20", "teeth = 20\npostion_mm = [1, 2]"), 11, "did you mean 'position_mm'?"),
+        (("teeth = 20", "cog = {teeth = 9}"), 10, "must be tables under headers [[sprocket.cog]]"),
+        (("teeth = 20\n", ""), 8, "sprocket.2.teeth: this key is required and missing"),
+        (("[chain]", "title = 5\n[chain]"), 2, "title: must be a valid string (got 5)"),
+        (("[drive]\nlinks = 110", "[[drive]]"), 13, "drive: must be a table"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, wrong, line, message, two_sprockets):
@@ -359,6 +364,23 @@ def test_what_is_wrong_is_named_with_its_line(cli, tmp_path, wrong, line, messag
     assert f"drive.toml:{line}: " in done.err
     assert message in done.err
     assert done.err.count(message) == 1
+
+
+def test_all_that_is_wrong_comes_in_one_pass(cli, tmp_path, two_sprockets):
+    """The place of a sprocket, its teeth and the tables of all of them, each once and under its own key."""
+    wrong = two_sprockets.replace('name = "roll"', "power_share = 2").replace("nodes = 61", "nodes = 3", 1)
+    path = tmp_path / "drive.toml"
+    path.write_text(wrong.replace("speed_rpm = 300", "speed_rpm = -300"))
+    keys = [line.split(": ")[1] for line in cli("life", path).err.splitlines()]
+    assert keys == ["sprocket.1.nodes", "sprocket.2.power_share", "load.speed_rpm"]
+
+
+def test_a_wrong_sprocket_hides_no_fault_of_another(cli, tmp_path, two_sprockets):
+    path = tmp_path / "drive.toml"
+    path.write_text(two_sprockets.replace("nodes = 61", "nodes = 3", 1))
+    err = cli("life", path, "--set", "sprocket.2.bore_mm=900").err
+    assert "drive.toml:7: sprocket.1.nodes: must be greater" in err
+    assert "--set sprocket.2.bore_mm: must be below the root diameter" in err
 
 
 def test_check_names_both_sprockets_and_every_assumption_once(cli, drive):

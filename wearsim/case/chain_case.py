@@ -2,15 +2,15 @@
 
 import copy
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
 from wearsim.case.chain_record import ChainRecord, mechanism_kind
 from wearsim.case.duty_blocks import GivenDuty, complete_duty
-from wearsim.case.keys import CaseTables, ChainTable
+from wearsim.case.keys import CaseTables, ChainTable, PlaceTable
 from wearsim.case.model import Case, Drive, WearInput
 from wearsim.case.table_inputs import (
     contact_modulus_of,
@@ -23,14 +23,14 @@ from wearsim.case.table_inputs import (
 from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
 from wearsim.contact.stop_limits import CHAIN_LIMITS
 from wearsim.geometry.forms import TOOTH_FORMS
-from wearsim.input.document import Document
+from wearsim.input.document import Document, is_whole_drive
 from wearsim.input.faults import Faults
 from wearsim.lubrication.read import lubrication_input
 
 _DEEP = 0.3
 """Critical depth over tooth thickness above which the tooth itself is in doubt."""
 
-_STAND_INS: dict[str, Any] = {
+STAND_INS: dict[str, Any] = {
     "format_version": 1,
     "chain": {"designation": "16B-1"},
     "load": {"tension_N": 1.0, "speed_rpm": 1.0},
@@ -38,29 +38,42 @@ _STAND_INS: dict[str, Any] = {
 }
 """What takes the place of a faulty part while the others are looked at."""
 
+_Tables = TypeVar("_Tables", bound=CaseTables)
+
 Builder = Callable[[ChainRecord, WearInput, Chain, GivenDuty | None], Drive | None]
 """Completes a drive from its tables; None where they do not make one, which the faults tell."""
 
 
 def read_chain_case(document: Document, build: Builder, tolerance: float) -> Case:
     """Return the case of a drive with a chain, or raise all that is wrong with it."""
-    data, faults = document.data, document.faults
+    tables, wrong = sound_tables(document.data, document.faults, CaseTables)
+    document.faults.distrust(wrong)
+    case = complete_case(tables, document, build, tolerance)
+    document.faults.check()
+    assert case is not None
+    return case
+
+
+def sound_tables(data: dict[str, Any], faults: Faults, model: type[_Tables]) -> tuple[_Tables, set[str]]:
+    """Return what is right of the tables of an input, and the names of those that are not.
+
+    Others stand in for these, so that the rest can be looked at too. Raises where nothing can.
+    """
     _check_load(data, faults)
     try:
-        tables = CaseTables.model_validate(data)
+        return model.model_validate(data), set()
     except ValidationError as error:
-        faults.add_validation(error, CaseTables)
-        faults.distrust(_wrong_tables(data, error))
-        rest = _sound_part(data, error)
-        if rest is not None:
-            _complete(rest, document, build, tolerance)
-        faults.check()
-        raise
-    return _complete(tables, document, build, tolerance)
+        faults.add_validation(error, model)
+        rest = _sound_part(data, error, model)
+        if rest is None:
+            faults.check()
+            raise
+        return rest, _wrong_tables(data, error)
 
 
-def _complete(tables: CaseTables, document: Document, build: Builder, tolerance: float) -> Case:
-    faults = document.faults
+def complete_case(tables: CaseTables, document: Document, build: Builder, tolerance: float) -> Case | None:
+    """Return the case of some tables; None where they do not make one, which the faults tell."""
+    faults, before = document.faults, document.faults.count
     case = ChainRecord(tables, document.folder, faults)
     take_defaults(case, tables)
     chain = _chain(case, tables.chain)
@@ -79,8 +92,8 @@ def _complete(tables: CaseTables, document: Document, build: Builder, tolerance:
     fatigue = fatigue_input(case, tables.fatigue)
     per_hour = tables.service.km_per_hour if tables.service else None
     lubrication = lubrication_input(case, tables.lubrication, per_hour, tables.wear.condition)
-    faults.check()
-    assert drive is not None and duty is not None
+    if drive is None or duty is None or faults.count > before:
+        return None
     return Case(
         name=document.name,
         title=tables.title or _title(case, kind),
@@ -245,34 +258,50 @@ def _check_load(data: Mapping[str, Any], faults: Faults) -> None:
         faults.add("load.speed_rpm", "this key is required and missing")
 
 
-def _sound_part(data: dict[str, Any], error: ValidationError) -> CaseTables | None:
+def _sound_part(data: dict[str, Any], error: ValidationError, model: type[_Tables]) -> _Tables | None:
     """Return the case without its wrong keys, to look for more faults; None if that is none."""
     sound, wrong = copy.deepcopy(data), _wrong_tables(data, error)
     whole = {"duty", "fatigue", "lubrication", "uncertainty", "optimise"} & wrong
     for name in whole:
         sound.pop(name, None)
-    for entry in error.errors():
-        if entry["loc"][0] in whole:
+    for *tables, last in _wrong_keys(error):
+        if tables and tables[0] in whole:
             continue
-        *tables, last = entry["loc"]
-        conflicting = [name for name, _ in entry.get("ctx", {}).get("faults", ())]
+        if tables[:1] == ["sprocket"] and is_whole_drive(data) and {last, *tables[2:]} & _OF_THE_LOOP:
+            return None
         place: Any = sound
-        for table in [*tables, last] if conflicting else tables:
-            place = place.get(table, {})
-        for name in conflicting or [last]:
-            place.pop(name, None)
-    sound |= {name: _STAND_INS[name] for name in wrong & set(_STAND_INS)}
+        for table in tables:
+            place = place.get(table, {}) if isinstance(place, dict) else place[int(table)]
+        place.pop(last, None)
+    sound |= {name: STAND_INS[name] for name in wrong & set(STAND_INS)}
     try:
-        return CaseTables.model_validate(sound)
+        return model.model_validate(sound)
     except ValidationError:
         return None
 
 
+_OF_THE_LOOP = {*PlaceTable.model_fields, "teeth"}
+"""Keys of a sprocket of a drive without which the others cannot be looked at."""
+
+
+def _wrong_keys(error: ValidationError) -> Iterator[tuple[int | str, ...]]:
+    """Give the places of all keys with faults."""
+    for entry in error.errors():
+        conflicting = [(*entry["loc"], name) for name, _ in entry.get("ctx", {}).get("faults", ())]
+        yield from conflicting or [entry["loc"]]
+
+
 def _wrong_tables(data: dict[str, Any], error: ValidationError) -> set[str]:
-    """Return the tables with faults, and those whose checks rest on them."""
-    wrong = {str(entry["loc"][0]) for entry in error.errors()}
+    """Return the tables with faults, and those whose checks rest on them; sprockets of a drive by number."""
+    several = is_whole_drive(data)
+    wrong = {
+        f"sprocket.{int(rest[0]) + 1}" if several and table == "sprocket" else str(table)
+        for table, *rest in _wrong_keys(error)
+    }
     if "chain" in wrong:
         wrong |= {"load"} | ({"sprocket", "drive"} & data.keys())
+    if "lubrication" in wrong:
+        wrong |= {"wear"} - data.keys()
     if wrong & {"load", "duty"}:
         wrong |= {"load"} | ({"duty"} & data.keys())
     return wrong | {"stop"} if "sprocket" in wrong else wrong

@@ -156,7 +156,7 @@ def with_one_wear(case: Case | DriveCase) -> Case | DriveCase:
     faults = [
         Fault("must be left out here, where [wear] is that of all: move it there", f"sprocket.{i}.wear")
         for i, wheel in enumerate(getattr(case, "wheels", ()), start=1)
-        if "wear" in wheel.own
+        if wheel.table.wear is not None
     ]
     if faults:
         raise CaseError([replace(fault, file=case.name) for fault in faults])

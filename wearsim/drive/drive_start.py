@@ -107,7 +107,7 @@ def _as_typed(value: float, text: str | None, unit: str) -> str:
 
 def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> dict[str, Any]:
     """Return what the template shows."""
-    from wearsim.drive.read import LONGEST, SERVICE_YEARS
+    from wearsim.drive.part_tables import LONGEST, SERVICE_YEARS
 
     factors, supplied = use_factors(values), LUBRICATIONS[values["lubrication"]]
     case = drive.driver.case

@@ -1,62 +1,93 @@
 """A drive with all of its sprockets, `[[sprocket]]`, taken apart into the cases of each of them."""
 
+import copy
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
+from wearsim.case.chain_case import STAND_INS, complete_case, sound_tables
+from wearsim.case.keys import CaseTables, DriveTables, WearTable
 from wearsim.case.model import Case
-from wearsim.catalogue.catalogues import USUAL_CONDITION
 from wearsim.drive.drive_case import DriveCase, DriveSprocket
-from wearsim.drive.refused_keys import GIVEN_BY_WHEELS, check_prices, check_tables, table_of
+from wearsim.drive.part_tables import part_tables
 from wearsim.drive.wheels import (
-    DRIVEN,
     DRIVER,
     IDLER,
     DriveWheel,
     check_block_shares,
+    check_prices,
     drive_wheels,
     place_of,
-    plain_number,
     power_shares,
 )
-from wearsim.errors import CaseError, Fault
+from wearsim.errors import CaseError
 from wearsim.input.document import Document
-from wearsim.input.faults import Faults
-from wearsim.lubrication.keys import with_wear_condition
-from wearsim.mechanisms.wrap.build import read
+from wearsim.input.faults import Faults, PartFaults
+from wearsim.mechanisms.wrap.build import WRAP_TOLERANCE, wrapped_drive
 from wearsim.mechanisms.wrap.drive import WrapLoad, wrap_drive
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
-from wearsim.quantities import DAYS_OF_YEAR
 
-SERVICE_YEARS, LONGEST = 100.0, 7e4
-"""Years of service, and hours, after which the runs of a drive with [service] end that gives no horizon.
+_OF_ONE_SPROCKET = {
+    "fatigue": "contact fatigue is for the case of one sprocket: remove this table",
+    "drive.mate_teeth": "the other [[sprocket]] gives this: remove it",
+    "maintenance.turn_sprocket": "is for the case of one sprocket: a drive is planned without turning: "
+    "remove it",
+    "maintenance.replace_at_percent": "is for the case of one sprocket: the chain of a drive goes at "
+    "stop.elongation_percent: remove it",
+}
+"""Tables and keys that a drive has no use for."""
 
-Nobody plans a part for more: 70 000 h are eight years without a stop.
-"""
-
-JOINT_FRICTION = 0.11
-"""Coefficient of friction of the joints where a drive gives none, of lubricated steel at the boundary."""
-
-
-_GIVES_LINKS = "centre_distance_mm"
-"""Key of [drive] from which the links follow."""
+_IN_NUMBERS = ("load", "duty", LOOP_KEY)
+"""Tables of which each sprocket has the same fault in other numbers."""
 
 
 def read_drive(document: Document) -> DriveCase:
     """Return the drive of a document; raises `CaseError` with everything that is wrong with it."""
-    check_tables(document)
-    wheels = drive_wheels(document)
-    document.faults.check()
-    check_prices(document, wheels)
-    shares = power_shares(document, wheels)
-    check_block_shares(document, wheels)
-    document.faults.check()
-    sprockets = _sprockets(document, wheels, shares)
-    document.faults.check()
-    title = document.data.get("title") or _title(wheels, sprockets[0].case)
+    faults = document.faults
+    tables, wrong = sound_tables(_of_a_drive(document), faults, DriveTables)
+    before = faults.count
+    wheels = drive_wheels(tables, faults)
+    if faults.count > before:
+        faults.check()
+    check_prices(tables, faults)
+    shares = power_shares(tables, wheels, faults)
+    check_block_shares(tables, wheels, faults)
+    if faults.count > before:
+        faults.check()
+    if tables.wear is None and any(table.wear is None for table in tables.sprocket):
+        faults.add("wear", "this table is required and missing")
+        tables = tables.model_copy(update={"wear": WearTable(**STAND_INS["wear"])})
+        wrong |= {"wear"}
+    faults.distrust(wrong)
+    sprockets = _sprockets(document, tables, wheels, shares, wrong)
+    faults.check()
+    title = tables.title or _title(wheels, sprockets[0].case)
     assert document.given is not None
     return DriveCase(document.name, title, document.data, tuple(sprockets), tuple(wheels), document.given)
+
+
+def _of_a_drive(document: Document) -> dict[str, Any]:
+    """Return the tables of a drive without what is for the case of one sprocket, which is named."""
+    faults, data, sprockets = document.faults, copy.deepcopy(document.data), document.data["sprocket"]
+    for key, message in _OF_ONE_SPROCKET.items():
+        table, _, name = key.rpartition(".")
+        place = data.get(table) if table else data
+        if isinstance(place, dict) and place.pop(name, False) is not False:
+            faults.add(key, message)
+    mechanism = data.get("mechanism")
+    if isinstance(mechanism, dict) and (kind := mechanism.pop("kind", "wrap")) != "wrap":
+        message = f"the chain of a drive wraps its sprockets: must be 'wrap', or left out (got {kind!r})"
+        faults.add("mechanism.kind", message)
+    if not all(isinstance(table, dict) for table in sprockets):
+        faults.add("sprocket", "must be tables under headers [[sprocket]]")
+        faults.check()
+    if len(sprockets) < 2:
+        message = f"a drive must have two sprockets, a driver and a driven one (got {len(sprockets)})"
+        faults.add("sprocket", message)
+        faults.check()
+    return data
 
 
 def _title(wheels: Sequence[DriveWheel], first: Case) -> str:
@@ -69,28 +100,34 @@ def _title(wheels: Sequence[DriveWheel], first: Case) -> str:
 
 def _teeth_in_words(wheel: DriveWheel) -> str:
     if not wheel.cogs:
-        return str(wheel.table["teeth"])
+        return str(wheel.teeth)
     teeth = [teeth for teeth, _ in wheel.cogs]
     return f"{min(teeth)}-{max(teeth)}"
 
 
 def _sprockets(
-    document: Document, wheels: Sequence[DriveWheel], shares: tuple[float, ...]
+    document: Document,
+    tables: DriveTables,
+    wheels: Sequence[DriveWheel],
+    shares: tuple[float, ...],
+    wrong: Collection[str],
 ) -> list[DriveSprocket]:
     """Return the cases of all sprockets; what is wrong with them goes to the faults of the drive."""
-    seen: set[tuple[str, str]] = set()
     found: dict[int, list[DriveSprocket]] = {}
     links: int | None = None
+    # What stands in for a wrong table says nothing of whether the drive works.
+    unsure = not all(name.startswith("sprocket.") for name in wrong)
     first = sorted(enumerate(wheels), key=lambda entry: (bool(entry[1].cogs), entry[1].role != DRIVER))
     for number, wheel in first:
         found[number] = []
-        all_teeth = [teeth for teeth, _ in wheel.cogs] or [int(wheel.table["teeth"])]
+        if f"sprocket.{number + 1}" in wrong:
+            continue
+        all_teeth = [teeth for teeth, _ in wheel.cogs] or [wheel.teeth]
         for name, teeth in zip(wheel.parts, all_teeth, strict=True):
-            running = [
-                replace(one, table={**one.table, "teeth": teeth}) if one is wheel else one for one in wheels
-            ]
-            case = _case(document, running, shares, number, seen, links if wheel.cogs else None)
-            if case is not None:
+            running = [replace(one, teeth=teeth) if one is wheel else one for one in wheels]
+            own = part_tables(tables, running, number, links if wheel.cogs else None)
+            case = _case(document, own, running, shares, number)
+            if case is not None and not unsure and _works(document.faults, case, running, number):
                 found[number].append(DriveSprocket(name, wheel.role, case))
                 # One chain runs on all cogs: that which fits the one that runs longest.
                 links = links or wrap_drive(case, "a drive has a chain").layout.links
@@ -183,119 +220,46 @@ def _turns(
 
 def _case(
     document: Document,
+    tables: CaseTables,
     wheels: Sequence[DriveWheel],
     shares: tuple[float, ...],
     number: int,
-    seen: set[tuple[str, str]],
-    links: int | None,
 ) -> Case | None:
     """Return the case of one sprocket; what is wrong with it is added to the faults of the drive."""
-    tables = _tables(document.data, wheels, number)
-    if links is not None:
-        tables["drive"] = {key: value for key, value in tables["drive"].items() if key != _GIVES_LINKS}
-        tables["drive"]["links"] = links
-    own = Document(document.name, document.folder, tables, Faults("", "", ()))
-    place = None if wheels[number].place.position_mm is None else place_of(wheels, shares, number)
-    case = None
+    placed = wheels[number].table.position_mm is not None
+    place = place_of(wheels, shares, number) if placed else None
+    faults = PartFaults(document.faults, _places(wheels[number], number + 1), _IN_NUMBERS)
+    own = Document(document.name, document.folder, {}, faults)
+    return complete_case(tables, own, partial(wrapped_drive, place=place), WRAP_TOLERANCE)
+
+
+def _works(faults: Faults, case: Case, wheels: Sequence[DriveWheel], number: int) -> bool:
+    """Tell whether a sprocket can run in the drive; what is wrong is added to the faults of the drive."""
     try:
-        case = read(own, place)
         case.drive.check(case)
-        return case
     except CaseError as error:
+        own = PartFaults(faults, _place_of_slack(wheels), _IN_NUMBERS)
         for fault in error.faults:
-            key, message = _key(fault, wheels, number), fault.message
-            # Of loop and load each sprocket has the same fault in other numbers.
-            alike = fault.key == LOOP_KEY or key.partition(".")[0] in ("load", "duty")
-            if case is not None and not alike:
-                message = f"{wheels[number].name!r}: {message}"
-                key = _slack_key(key, wheels)
-            same = (key, "" if alike else message)
-            if same not in seen:
-                document.faults.add(key, message)
-            seen.add(same)
-        return None
+            alike = fault.key in _IN_NUMBERS
+            own.add(fault.key, fault.message if alike else f"{wheels[number].name!r}: {fault.message}")
+        return False
+    return True
 
 
-def _slack_key(key: str, wheels: Sequence[DriveWheel]) -> str:
-    """Return the key that gives the slack tension of a drive, where it is about that: a force of its own."""
-    forced = [
-        number
-        for number, wheel in enumerate(wheels, start=1)
-        if wheel.place.take_up is not None and wheel.place.take_up.tensioner_force_N is not None
-    ]
-    if key != "drive.slack_tension_N" or not forced:
-        return key
-    return f"sprocket.{forced[0]}.take_up.tensioner_force_N"
+def _place_of_slack(wheels: Sequence[DriveWheel]) -> dict[str, str]:
+    """Return where the file gives the slack tension of a drive, if that is a force of its own."""
+    for number, wheel in enumerate(wheels, start=1):
+        if wheel.table.take_up is not None and wheel.table.take_up.tensioner_force_N is not None:
+            return {"drive.slack_tension_N": f"sprocket.{number}.take_up.tensioner_force_N"}
+    return {}
 
 
-def _key(fault: Fault, wheels: Sequence[DriveWheel], number: int) -> str:
-    """Return the key of the file that a fault of the case of one sprocket comes from."""
-    key = fault.key
-    if key == LOOP_KEY:
-        named = [
-            (fault.message.find(repr(wheel.name)), place)
-            for place, wheel in enumerate(wheels, start=1)
-            if repr(wheel.name) in fault.message
-        ]
-        return f"sprocket.{min(named)[1]}" if named else "sprocket"
-    table, _, name = key.partition(".")
-    if table == "sprocket":
-        return f"sprocket.{number + 1}.{name}".rstrip(".")
-    own = wheels[number].own
-    if table in own and table == "wear":
-        return f"sprocket.{number + 1}.{key}"
-    if key.startswith("material.sprocket") and "material" in own:
-        return f"sprocket.{number + 1}.material{key.removeprefix('material.sprocket')}"
-    return key
-
-
-def _tables(data: Mapping[str, Any], wheels: Sequence[DriveWheel], number: int) -> dict[str, Any]:
-    """Return the tables of the case of one sprocket: its teeth, its speed and its torque."""
-    wheel = wheels[number]
-    driver = next(one for one in wheels if one.role == DRIVER)
-    drive = {"joint_friction": JOINT_FRICTION, **table_of(data, "drive")}
-    if wheel.place.position_mm is None:
-        drive[GIVEN_BY_WHEELS] = wheels[1 - number].rollers
-    run, service = table_of(data, "run"), table_of(data, "service")
-    hours_per_day = service.get("hours_per_day")
-    if isinstance(hours_per_day, int | float) and 0.0 < hours_per_day <= 24.0:
-        run = {"horizon_hours": min(LONGEST, SERVICE_YEARS * DAYS_OF_YEAR * hours_per_day), **run}
-    tables: dict[str, Any] = {
-        **{key: value for key, value in data.items() if key != "title"},
-        "run": run,
-        "sprocket": {**wheel.table, "role": DRIVER if wheel.role == DRIVER else DRIVEN},
-        "drive": drive,
-        "mechanism": {"kind": "wrap", **table_of(data, "mechanism")},
-    }
-    if "wear" in wheel.own:
-        tables["wear"] = wheel.own["wear"]
-        # All sprockets have one chain: its joints take the state of the drive, not that of this sprocket.
-        shared = with_wear_condition(data).get("wear", driver.own.get("wear", {}))
-        of_drive = table_of({"wear": shared}, "wear").get("condition")
-        tables["joint"] = {"condition": of_drive or USUAL_CONDITION, **table_of(data, "joint")}
-    if wheel.place.price is not None:
-        tables["maintenance"] = {**table_of(data, "maintenance"), "sprocket_price": wheel.place.price}
-    if "material" in wheel.own:
-        tables["material"] = {**table_of(data, "material"), "sprocket": wheel.own["material"]}
-    if wheel is not driver:
-        ratio = driver.rollers / wheel.rollers
-        if isinstance(data.get("load"), dict):
-            tables["load"] = _turned(data["load"], ratio)
-        if isinstance(data.get("duty"), list):
-            tables["duty"] = [
-                _turned(block, ratio) if isinstance(block, dict) else block for block in data["duty"]
-            ]
-    return tables
-
-
-def _turned(load: Mapping[str, Any], ratio: float) -> dict[str, Any]:
-    """Return a load of the driver as that of a sprocket that turns by ``ratio`` times its speed."""
-    turned = dict(load)
-    for key, unit, factor in (("speed_rpm", "rpm", ratio), ("torque_N_m", "N*m", 1.0 / ratio)):
-        value = plain_number(load.get(key), unit)
-        if value is not None:
-            turned[key] = value * factor
-    if "duty_file" in load:
-        # The log stays that of the driver.
-        turned["duty_speed_ratio"] = ratio * (plain_number(load.get("duty_speed_ratio"), "") or 1.0)
-    return turned
+def _places(wheel: DriveWheel, number: int) -> dict[str, str]:
+    """Return where the file holds tables of the case of one sprocket."""
+    table = f"sprocket.{number}"
+    places = {"sprocket": table, LOOP_KEY: "sprocket"}
+    if wheel.table.wear is not None:
+        places["wear"] = f"{table}.wear"
+    if wheel.table.material is not None:
+        places["material.sprocket"] = f"{table}.material"
+    return places

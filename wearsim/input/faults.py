@@ -4,7 +4,7 @@ import difflib
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
@@ -26,6 +26,7 @@ class Faults:
         self._found: list[Fault] = []
         self._lines: dict[str, int] = {}
         self._distrusted: set[str] = set()
+        self._said: set[tuple[str, str]] = set()
 
     @property
     def count(self) -> int:
@@ -34,7 +35,7 @@ class Faults:
 
     def add(self, key: str, message: str) -> None:
         """Add a fault of a key."""
-        if key.partition(".")[0] in self._distrusted:
+        if self.distrusts(key):
             return
         if self._is_set(key):
             self._found.append(Fault(message, "", f"--set {key}"))
@@ -42,6 +43,12 @@ class Faults:
         if key not in self._lines:
             self._lines[key] = line_of(self.text, key)
         self._found.append(Fault(message, key, self.file, self._lines[key]))
+
+    def add_once(self, key: str, kind: str, message: str) -> None:
+        """Add a fault of a key unless one of its kind was added so before."""
+        if (key, kind) not in self._said:
+            self._said.add((key, kind))
+            self.add(key, message)
 
     def _is_set(self, key: str) -> bool:
         """Whether an override holds a key, or made the table of this name."""
@@ -59,6 +66,11 @@ class Faults:
         """Take no more faults of some tables: they may only follow from those already found."""
         self._distrusted = set(tables)
 
+    def distrusts(self, key: str) -> bool:
+        """Tell whether no faults of a key are taken."""
+        table, *rest = key.split(".")
+        return table in self._distrusted or (len(rest) > 1 and f"{table}.{rest[0]}" in self._distrusted)
+
     def check(self) -> None:
         """Raise if anything was found."""
         if not self._found:
@@ -68,6 +80,34 @@ class Faults:
         if len(ordered) > len(shown):
             shown.append(Fault(f"and {len(ordered) - len(shown)} more", "", self.file))
         raise CaseError(shown)
+
+
+class PartFaults(Faults):
+    """What is wrong with one part of an input, found in the whole of it under the keys where it stands there.
+
+    Parts share tables: what is wrong with these all of them find, in other numbers in those of a load.
+    """
+
+    def __init__(self, whole: Faults, places: Mapping[str, str], in_numbers: Iterable[str] = ()) -> None:
+        super().__init__(whole.file, "", ())
+        self._whole = whole
+        self._places = places
+        self._in_numbers = tuple(in_numbers)
+
+    def add(self, key: str, message: str) -> None:
+        """Add a fault of a key."""
+        place = next(
+            (
+                self._places[table] + key.removeprefix(table)
+                for table in self._places
+                if f"{key}.".startswith(f"{table}.")
+            ),
+            key,
+        )
+        if self._whole.distrusts(place):
+            return
+        self._found.append(Fault(message, place, self.file))
+        self._whole.add_once(place, "" if key.partition(".")[0] in self._in_numbers else message, message)
 
 
 def validation_faults(error: ValidationError, model: type[BaseModel]) -> Iterator[tuple[str, str, bool]]:
@@ -90,20 +130,26 @@ def known_keys(model: type[BaseModel]) -> list[str]:
     for name, field in model.model_fields.items():
         names.append(name)
         inner = field.annotation
-        candidates = [inner, *getattr(inner, "__args__", ())]
-        for candidate in candidates:
+        for candidate in dict.fromkeys(map(_entry, (inner, *get_args(inner)))):
             if isinstance(candidate, type) and issubclass(candidate, BaseModel):
                 names += [f"{name}.{below}" for below in known_keys(candidate)]
     return names
 
 
+def _entry(annotation: Any) -> Any:
+    """Return the type of the entries of a list, or of what is no list."""
+    while get_origin(annotation) in (Annotated, list):
+        annotation = get_args(annotation)[0]
+    return annotation
+
+
 def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
-    kind, got = entry["type"], entry["input"]
+    kind, got, table = entry["type"], entry["input"], without_numbers(key)
     if kind == "extra_forbidden":
         what = "table" if isinstance(got, Mapping) else "key"
         return f"unknown {what}{_similar(key, names)}"
     if kind == "missing":
-        what = "table" if any(name.startswith(f"{key}.") for name in names) else "key"
+        what = "table" if any(name.startswith(f"{table}.") for name in names) else "key"
         return f"this {what} is required and missing"
     if kind in ("too_short", "too_long"):
         return _length_message(entry["ctx"], kind)
@@ -112,8 +158,8 @@ def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
     if kind in ("model_type", "dict_type"):
         text = "must be a table"
     if kind == "list_type":
-        tables = "." not in key or any(name.startswith(f"{key}.") for name in names)
-        text = f"must be tables under headers [[{key}]]" if tables else "must be a list of values"
+        tables = "." not in key or any(name.startswith(f"{table}.") for name in names)
+        text = f"must be tables under headers [[{table}]]" if tables else "must be a list of values"
     if isinstance(got, Mapping):
         return f"{text} (got a table)"
     hint = ""

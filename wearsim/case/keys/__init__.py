@@ -15,7 +15,13 @@ from wearsim.case.keys.drive_tables import (
     PlaceTable,
     SprocketTable,
 )
-from wearsim.case.keys.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
+from wearsim.case.keys.study_tables import (
+    DriveMaintenanceTable,
+    MaintenanceTable,
+    OptimiseTable,
+    ServiceTable,
+    Uncertainty,
+)
 from wearsim.case.keys.wear_tables import (
     FilmTable,
     MaterialsTable,
@@ -103,6 +109,9 @@ class DriveTables(CaseTables):
     """The tables of a drive with all of its sprockets."""
 
     sprocket: list[PlacedSprocketTable]  # type: ignore[assignment]
+    wear: WearTable | None = None  # type: ignore[assignment]
+    """None where every sprocket has its own."""
+    maintenance: DriveMaintenanceTable | None = None
 
 
 class CaseTablesOrDrive(CaseTables):

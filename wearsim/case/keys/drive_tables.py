@@ -344,16 +344,37 @@ class PlaceTable(Table):
         return found
 
 
+def _teeth(value: object) -> object:
+    if type(value) is not int or value < 5:
+        raise ValueError("must be a whole number of at least 5")
+    return value
+
+
 class PlacedSprocketTable(SprocketTable, PlaceTable):
     """A sprocket of the drive: its place in the loop and its teeth."""
 
     role: Literal["driver", "driven", "idler"] | None = None  # type: ignore[assignment]
-    teeth: Annotated[int, Field(ge=5, le=1000)] | None = None  # type: ignore[assignment]
+    teeth: Annotated[int, Field(ge=5, le=1000), BeforeValidator(_teeth)] | None = None  # type: ignore[assignment]
 
     @classmethod
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
         """Return the keys whose place a new value of a key takes."""
         return (*SprocketTable.gives_way(key, value), *PlaceTable.gives_way(key, value))
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        found = [*PlaceTable.conflicts(self), *SprocketTable.conflicts(self)]
+        if self.cog and self.teeth is not None:
+            found.append(("teeth", "the cogs give their own: remove one of both"))
+        if not self.cog and self.teeth is None:
+            found.append(("teeth", "this key is required and missing"))
+        return found
+
+    def alone(self, **taken: int | str) -> SprocketTable:
+        """Return the table of this sprocket where it is the only one of a case, with values of some keys."""
+        keys = SprocketTable.model_fields
+        given = {*self.model_fields_set & keys.keys(), *taken}
+        return SprocketTable.model_construct(given, **{key: getattr(self, key) for key in keys} | taken)
 
 
 class DutyBlock(Table):

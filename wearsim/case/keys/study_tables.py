@@ -87,6 +87,14 @@ class MaintenanceTable(Table):
         ]
 
 
+class DriveMaintenanceTable(MaintenanceTable):
+    """The same of a drive, whose sprockets may have prices of their own."""
+
+    def conflicts(self) -> list[tuple[str, str]]:
+        """Return what is wrong between the keys of this table."""
+        return [fault for fault in super().conflicts() if fault[0] != "chain_price"]
+
+
 Measure = Literal["life_hours", "mass_kg", "peak_pressure_MPa"]
 
 

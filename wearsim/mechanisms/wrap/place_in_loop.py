@@ -1,7 +1,7 @@
 """A sprocket in its place in a loop of many: the layout that fits, and the tensions on its two sides."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -21,8 +21,8 @@ from wearsim.chain.take_up import TakeUp
 from wearsim.errors import CaseError, GeometryError
 from wearsim.mechanisms.wrap.drive import WrapLoad
 
-LOOP_KEY = "drive.loop"
-"""Key of faults that are about the loop as a whole."""
+LOOP_KEY = "loop"
+"""Key of faults that are about the loop as a whole, with the number of a wheel where they name one."""
 
 _GIVEN_BY_PLACES = ("mate_teeth", "centre_distance_mm", "inclination_deg")
 
@@ -76,7 +76,7 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
     except (CaseError, GeometryError) as error:
         faults = error.faults if isinstance(error, CaseError) else ()
         for text in [fault.message for fault in faults] or [str(error)]:
-            case.faults.add(LOOP_KEY, text)
+            case.faults.add(_key_of(text, place.wheels), text)
         return None
     if table.links is None:
         case.take("drive.links", layout.links, "the even number that fits the sprockets as they stand")
@@ -87,6 +87,13 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
             f"take-up {drive.take_up.wheel!r} stands {layout.travel:.4g} mm from its place for a new chain"
         )
     return layout
+
+
+def _key_of(text: str, wheels: Sequence[Wheel]) -> str:
+    """Return the key of a fault of the loop, that of the wheel which it names first."""
+    places = ((text.find(repr(wheel.name)), number) for number, wheel in enumerate(wheels, start=1))
+    named = min((place for place in places if place[0] >= 0), default=None)
+    return f"{LOOP_KEY}.{named[1]}" if named else LOOP_KEY
 
 
 def _loop(pitch: float, wheels: tuple[Wheel, ...]) -> ChainLoop:
@@ -198,7 +205,7 @@ def loop_loads(
         braking = any(load.reverse for load in loads)
         braked = " (loads below 0 of the log swap tight and slack spans)" if braking else ""
         for fault in error.faults:
-            case.faults.add(LOOP_KEY, f"{fault.message}{braked}")
+            case.faults.add(_key_of(fault.message, layout.loop.wheels), f"{fault.message}{braked}")
         return None
     found, rated = forces[: len(duty.blocks)], forces[len(duty.blocks) :]
     heaviest = max(rated, key=lambda forces: float(forces.tensions.max()))

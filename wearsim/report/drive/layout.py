@@ -89,7 +89,7 @@ def loads_text(case: Case | DriveCase, teeth: Mapping[str, ToothLoads]) -> str:
 def loop_names(drive: DriveCase) -> list[str]:
     """Names of the sprockets in the order of the loop, which begins with the driver where none is placed."""
     wheels = drive.wheels
-    if wheels[0].place.position_mm is None:
+    if wheels[0].table.position_mm is None:
         wheels = tuple(sorted(wheels, key=lambda wheel: wheel.role != DRIVER))
     return [wheel.name for wheel in wheels]
 
