@@ -17,7 +17,7 @@ from click.testing import CliRunner
 import wearsim
 from wearsim.case.keys import RunTable, Table, WearTable
 from wearsim.case.model import Case, Drive
-from wearsim.case.table_inputs import TOLERANCE, run_input, take_defaults, wear_input
+from wearsim.case.table_inputs import run_input, take_defaults, wear_input
 from wearsim.cli.main import wearsim_command
 from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.geometry.profile_points import Profile
@@ -124,7 +124,7 @@ def read(document):
     tables, faults = checked(document, PinTables), document.faults
     record = CaseRecord(tables, document.folder, faults)
     take_defaults(record, tables)
-    wear, run, pin = wear_input(record, tables.wear), run_input(record, tables.run, TOLERANCE), tables.pin
+    wear, run, pin = wear_input(record, tables.wear), run_input(record, tables.run), tables.pin
     faults.check()
     return Case(
         name=document.name,

@@ -56,6 +56,9 @@ class Drive:
     rests: ClassVar[bool] = False
     """Whether mates rest in the outline instead of passing every point of a flank once a cycle."""
 
+    life_tolerance: ClassVar[float] = 1e-3
+    """Relative tolerance of a life by default."""
+
     has_tooth: ClassVar[bool] = False
     """Whether the tooth around the flank is known."""
 

@@ -8,7 +8,7 @@ from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenLoad
 from wearsim.case.keys import MaterialTable, RunTable, SprocketTable, Table, WearTable
 from wearsim.case.keys.wear_tables import FatigueTable, FilmTable, FlankMaterialTable
-from wearsim.case.model import FatigueInput, FilmInput, RunInput, WearInput
+from wearsim.case.model import Drive, FatigueInput, FilmInput, RunInput, WearInput
 from wearsim.catalogue.catalogues import Chain, materials, wear_conditions, wear_laws
 from wearsim.contact.hertz import contact_modulus
 from wearsim.fatigue.contact_fatigue import FlankMaterial
@@ -16,9 +16,6 @@ from wearsim.input.faults import CaseRecord
 
 DEFAULT_BAND = 3.0
 """Factor to either side of a coefficient without a band of its own: a life is only as good as k."""
-
-TOLERANCE = 1e-3
-"""Relative tolerance of a life by default."""
 
 FLANK_NODES = 201
 """Points of a flank by default."""
@@ -69,7 +66,7 @@ def _material(case: CaseRecord, body: str, table: MaterialTable) -> tuple[float,
     return modulus, ratio
 
 
-def run_input(case: CaseRecord, table: RunTable, tolerance: float) -> RunInput:
+def run_input(case: CaseRecord, table: RunTable, tolerance: float = Drive.life_tolerance) -> RunInput:
     """Return how the life is calculated."""
     if table.method == "per_cycle" and table.cycles_per_update is None:
         case.take("run.cycles_per_update", 1, "every cycle")

@@ -7,11 +7,11 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from wearsim.case.chain_case import STAND_INS, complete_case, sound_tables
 from wearsim.case.keys import CaseTables, DriveTables, WearTable
 from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase, DriveSprocket
 from wearsim.drive.part_tables import part_tables
+from wearsim.drive.read_sprocket import STAND_INS, complete_case, sound_tables
 from wearsim.drive.wheels import (
     DRIVER,
     IDLER,
@@ -25,7 +25,7 @@ from wearsim.drive.wheels import (
 from wearsim.errors import CaseError
 from wearsim.input.document import Document
 from wearsim.input.faults import Faults, PartFaults
-from wearsim.mechanisms.wrap.build import WRAP_TOLERANCE, wrapped_drive
+from wearsim.mechanisms.wrap.build import wrapped_drive
 from wearsim.mechanisms.wrap.drive import WrapLoad, wrap_drive
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 
@@ -230,7 +230,7 @@ def _case(
     place = place_of(wheels, shares, number) if placed else None
     faults = PartFaults(document.faults, _places(wheels[number], number + 1), _IN_NUMBERS)
     own = Document(document.name, document.folder, {}, faults)
-    return complete_case(tables, own, partial(wrapped_drive, place=place), WRAP_TOLERANCE)
+    return complete_case(tables, own, partial(wrapped_drive, place=place))
 
 
 def _works(faults: Faults, case: Case, wheels: Sequence[DriveWheel], number: int) -> bool:

@@ -43,6 +43,7 @@ class MechanismEntry:
 
     tables: str  # `module:class` of the tables of its input
     read: str  # `module:function` from a document to a complete case
+    build: str = ""  # of a chain, `module:function` from the record of a case to what wears in it
     history: tuple[str, ...] = HISTORY  # columns that history.csv has at least
     flank: tuple[str, ...] = FLANK  # columns that flank.csv has at least
     # kernels that a life takes, which are compiled together: `module.function` of wearsim.kernels
@@ -59,20 +60,22 @@ _FLANK_KERNELS = (
     "controlled_steps.wear_flanks",
     "controlled_steps.states_between",
 )
-_CHAIN = "wearsim.case.keys:CaseTables"
+_CHAIN = "wearsim.case.keys:CaseTables", "wearsim.drive.read_sprocket:read_sprocket"
 
 MECHANISMS = {
     "strand": MechanismEntry(
-        _CHAIN, "wearsim.mechanisms.strand.build:read", kernels=(*_FLANK_KERNELS, "strand.strand_contact")
+        *_CHAIN,
+        "wearsim.mechanisms.strand.build:strand_drive",
+        kernels=(*_FLANK_KERNELS, "strand.strand_contact"),
     ),
     "prescribed": MechanismEntry(
-        _CHAIN,
-        "wearsim.mechanisms.prescribed.build:read",
+        *_CHAIN,
+        "wearsim.mechanisms.prescribed.build:prescribed_drive",
         kernels=(*_FLANK_KERNELS, "prescribed.prescribed_contact"),
     ),
     "wrap": MechanismEntry(
-        _CHAIN,
-        "wearsim.mechanisms.wrap.build:read",
+        *_CHAIN,
+        "wearsim.mechanisms.wrap.build:wrapped_drive",
         (
             *HISTORY[:3],
             "elongation_percent",
@@ -96,7 +99,7 @@ MECHANISMS = {
     ),
     "gear_pair": MechanismEntry(
         "wearsim.mechanisms.gear_pair.keys:GearTables",
-        "wearsim.mechanisms.gear_pair.build:read",
+        "wearsim.drive.read_gears:read_gears",
         flank=(*FLANK, "path_mm", "wheel_x_mm", "wheel_y_mm", "wheel_depth_mm"),
         kernels=(*_FLANK_KERNELS, "gear_pair.gear_pair_contact"),
     ),

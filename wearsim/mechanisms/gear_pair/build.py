@@ -1,28 +1,16 @@
-"""From the tables of a gear pair as given to a complete case."""
+"""From the tables of a gear pair to its drive: teeth, mesh, stiffness."""
 
 import math
 
 import numpy as np
 
-from wearsim.case.model import Case
-from wearsim.case.table_inputs import (
-    FLANK_NODES,
-    TOLERANCE,
-    contact_modulus_of,
-    fatigue_input,
-    film_input,
-    run_input,
-    take_defaults,
-    wear_input,
-)
+from wearsim.case.table_inputs import FLANK_NODES
 from wearsim.contact.hertz import contact_modulus
 from wearsim.errors import GeometryError
 from wearsim.geometry.gear.involute import InvolutePair
 from wearsim.geometry.gear.mesh import Mesh, ToothPair, check_contact_ratio
 from wearsim.geometry.gear.plane_gearing import PitchCircles
-from wearsim.input.document import Document, checked
 from wearsim.input.faults import CaseRecord
-from wearsim.lubrication.read import lubrication_input
 from wearsim.mechanisms.gear_pair.drive import GearDrive
 from wearsim.mechanisms.gear_pair.keys import GearTable, GearTables
 
@@ -32,20 +20,8 @@ PAIR_STIFFNESS = 14.0
 _STEEL = contact_modulus((206_000.0, 206_000.0), (0.3, 0.3))
 
 
-def read(document: Document) -> Case:
-    """Return the case of a gear pair."""
-    tables, faults = checked(document, GearTables), document.faults
-    case = CaseRecord(tables, document.folder, faults)
-    take_defaults(case, tables)
-    materials = tables.material
-    modulus = contact_modulus_of(case, {"pinion": materials.pinion, "wheel": materials.wheel})
-    wear = wear_input(case, tables.wear)
-    if wear.pressure_exponent < 1.0:
-        faults.add(
-            "wear.pressure_exponent",
-            "must be at least 1 on gears: below 1 a pit deepens itself and the problem is ill-posed "
-            f"(got {wear.pressure_exponent:g})",
-        )
+def gear_drive(case: CaseRecord, tables: GearTables, modulus: float) -> GearDrive | None:
+    """Complete a pair of gears; None where their tables do not make one, which the faults tell."""
     nodes = tables.gear.nodes or FLANK_NODES
     if tables.gear.nodes is None:
         case.take("gear.nodes", nodes, "default")
@@ -54,54 +30,18 @@ def read(document: Document) -> Case:
     if "wheel_wear_ratio" not in tables.wear.model_fields_set:
         case.assumptions.append("wear.wheel_wear_ratio = 1 (default)")
     stiffness = _stiffness(case, tables, modulus)
-    run = run_input(case, tables.run, TOLERANCE)
-    faults.check()
-    assert teeth is not None
+    if teeth is None:
+        return None
     pair, mesh = teeth
-    line_load = torque / tables.gear.face_width_mm
-    case.warnings += _third_pair(mesh, line_load, stiffness)
-    limit = tables.stop.wheel_critical_depth_mm
-    if limit is None:
-        limit = tables.stop.critical_depth_mm
-        case.take("stop.wheel_critical_depth_mm", limit, "as of the pinion")
-    fatigue = fatigue_input(case, tables.fatigue)
-    lubrication = lubrication_input(case, tables.lubrication, None, None)
-    faults.check()
-    return Case(
-        name=document.name,
-        title=tables.title or _title(tables.gear),
-        inputs=case.inputs,
-        files=(),
-        input_files={},
-        drive=GearDrive(
-            pair=pair,
-            face_width=tables.gear.face_width_mm,
-            torque=torque,
-            stiffness=stiffness,
-            wheel_wear_ratio=tables.wear.wheel_wear_ratio,
-            points=nodes,
-        ),
-        modulus=modulus,
-        speed_rpm=tables.load.speed_rpm,
-        engaged_every=1,
-        turns_per_cycle=1,
-        wear=wear,
-        critical_depth=tables.stop.critical_depth_mm,
-        more_limits={"wheel_critical_depth_mm": limit},
-        run=run,
-        fatigue=fatigue,
-        assumptions=tuple(case.assumptions),
-        warnings=tuple(case.warnings),
-        given=document.given,
-        lubrication=lubrication,
-        film=film_input(tables.film),
+    case.warnings += _third_pair(mesh, torque / tables.gear.face_width_mm, stiffness)
+    return GearDrive(
+        pair=pair,
+        face_width=tables.gear.face_width_mm,
+        torque=torque,
+        stiffness=stiffness,
+        wheel_wear_ratio=tables.wear.wheel_wear_ratio,
+        points=nodes,
     )
-
-
-def _title(gear: GearTable) -> str:
-    """What a case is about that has no title of its own."""
-    form = gear.profile.replace("_", "-").capitalize()
-    return f"{form} gears {gear.pinion_teeth}/{gear.wheel_teeth}, module {gear.module_mm:g} mm"
 
 
 def _stiffness(case: CaseRecord, tables: GearTables, modulus: float) -> float:

@@ -5,16 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wearsim.case.chain_case import read_chain_case
 from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenDuty
 from wearsim.case.model import Case, Drive, WearInput
-from wearsim.case.table_inputs import TOLERANCE, slip_fraction
+from wearsim.case.table_inputs import slip_fraction
 from wearsim.catalogue.catalogues import Chain
 from wearsim.contact.engagement import ContactKind, Mechanism
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.csv_tables import PrescribedTable, read_prescribed
-from wearsim.input.document import Document
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,11 +46,6 @@ class PrescribedDrive(Drive):
             mate_radius=0.5 * self.chain.roller_diameter,
             modulus=case.modulus,
         )
-
-
-def read(document: Document) -> Case:
-    """Return the case of a flank whose load and sliding come from a table."""
-    return read_chain_case(document, prescribed_drive, TOLERANCE)
 
 
 def prescribed_drive(

@@ -3,28 +3,14 @@
 import math
 from functools import partial
 
-from wearsim.case.chain_case import read_chain_case
 from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
-from wearsim.case.model import Case, LoadBlock, WearInput, heaviest_block, on_flank
+from wearsim.case.model import LoadBlock, WearInput, heaviest_block, on_flank
 from wearsim.case.sprocket_inputs import evolute_tooth, hub_input, points_tooth
-from wearsim.case.table_inputs import (
-    FLANK_NODES,
-    TOLERANCE,
-    effective_pull,
-    face_width,
-    slip_fraction,
-    within_strength,
-)
+from wearsim.case.table_inputs import FLANK_NODES, effective_pull, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain
 from wearsim.geometry.blank import tooth_space
-from wearsim.input.document import Document
 from wearsim.mechanisms.strand.drive import StrandDrive
-
-
-def read(document: Document) -> Case:
-    """Return the case of a sprocket on a straight strand."""
-    return read_chain_case(document, strand_drive, TOLERANCE)
 
 
 def strand_drive(

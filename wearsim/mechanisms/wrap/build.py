@@ -3,11 +3,10 @@
 import math
 from functools import partial
 
-from wearsim.case.chain_case import read_chain_case
 from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
 from wearsim.case.keys import DriveTable
-from wearsim.case.model import Case, WearInput, heaviest_block
+from wearsim.case.model import WearInput, heaviest_block
 from wearsim.case.sprocket_inputs import hub_input
 from wearsim.case.table_inputs import chain_pull, chain_speed, face_width, slip_fraction, within_strength
 from wearsim.catalogue.catalogues import Chain
@@ -18,7 +17,6 @@ from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
 from wearsim.geometry.blank import gap_space
-from wearsim.input.document import Document
 from wearsim.mechanisms.wrap.drive import WrapDrive, WrapLoad
 from wearsim.mechanisms.wrap.gap_shape import gap_shape
 from wearsim.mechanisms.wrap.joints import joint_input, joint_law_of, with_teeth_alike
@@ -35,14 +33,6 @@ SAG_PERCENT = 2.0
 LINK_STIFFNESS_PER_PITCH = 5e4 / 12.7
 SLIP_FRACTION = 0.1
 PHASES = 6
-
-WRAP_TOLERANCE = 5e-2
-"""Relative tolerance of a life by default, as it costs more than on a strand."""
-
-
-def read(document: Document, place: PlaceInLoop | None = None) -> Case:
-    """Return the case of a chain around a sprocket, of two or in its place in a loop."""
-    return read_chain_case(document, partial(wrapped_drive, place=place), WRAP_TOLERANCE)
 
 
 def wrapped_drive(

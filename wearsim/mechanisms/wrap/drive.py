@@ -130,6 +130,7 @@ class WrapDrive(Drive):
 
     rests = True
     has_tooth = True
+    life_tolerance = 5e-2  # it costs more than on a strand
 
     @property
     def duty(self) -> tuple["WrapLoad", ...]:

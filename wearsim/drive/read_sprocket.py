@@ -1,4 +1,4 @@
-"""From the tables of a drive with a chain to a complete case: defaults, checks across tables, limits."""
+"""From the tables of a sprocket and its chain to a complete case: defaults, checks across tables, limits."""
 
 import copy
 import math
@@ -25,6 +25,7 @@ from wearsim.contact.stop_limits import CHAIN_LIMITS
 from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.input.document import Document, is_whole_drive
 from wearsim.input.faults import Faults
+from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.lubrication.read import lubrication_input
 
 _DEEP = 0.3
@@ -44,11 +45,12 @@ Builder = Callable[[ChainRecord, WearInput, Chain, GivenDuty | None], Drive | No
 """Completes a drive from its tables; None where they do not make one, which the faults tell."""
 
 
-def read_chain_case(document: Document, build: Builder, tolerance: float) -> Case:
-    """Return the case of a drive with a chain, or raise all that is wrong with it."""
+def read_sprocket(document: Document) -> Case:
+    """Return the case of a sprocket and its chain, or raise all that is wrong with it."""
+    build: Builder = mechanism_of(document.data).load("build")
     tables, wrong = sound_tables(document.data, document.faults, CaseTables)
     document.faults.distrust(wrong)
-    case = complete_case(tables, document, build, tolerance)
+    case = complete_case(tables, document, build)
     document.faults.check()
     assert case is not None
     return case
@@ -71,7 +73,7 @@ def sound_tables(data: dict[str, Any], faults: Faults, model: type[_Tables]) -> 
         return rest, _wrong_tables(data, error)
 
 
-def complete_case(tables: CaseTables, document: Document, build: Builder, tolerance: float) -> Case | None:
+def complete_case(tables: CaseTables, document: Document, build: Builder) -> Case | None:
     """Return the case of some tables; None where they do not make one, which the faults tell."""
     faults, before = document.faults, document.faults.count
     case = ChainRecord(tables, document.folder, faults)
@@ -88,7 +90,7 @@ def complete_case(tables: CaseTables, document: Document, build: Builder, tolera
     drive = build(case, wear, chain, duty)
     critical_depth = _critical_depth(case, drive)
     more_limits = _more_limits(case, drive)
-    run = run_input(case, tables.run, tolerance)
+    run = run_input(case, tables.run, (drive or Drive).life_tolerance)
     fatigue = fatigue_input(case, tables.fatigue)
     per_hour = tables.service.km_per_hour if tables.service else None
     lubrication = lubrication_input(case, tables.lubrication, per_hour, tables.wear.condition)
