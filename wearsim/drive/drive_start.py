@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.catalogue.catalogues import chains
 from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS
-from wearsim.drive.known_drive import Values, is_plain, read_known, shifts_in_words, use_factors
+from wearsim.drive.known_drive import Values, is_plain, read_known, shifts_in_words, use_of
 from wearsim.errors import CaseError, Fault
 from wearsim.quantities import DAYS_OF_YEAR
 
@@ -62,7 +62,7 @@ def _loaded(values: Values) -> "DriveCase":
     from wearsim.chain.standard_teeth import standard_form
     from wearsim.drive.load_case import load_drive
 
-    factors, form = use_factors(values), standard_form(chains()[values["chain"]])
+    use, form = use_of(values), standard_form(chains()[values["chain"]])
     supplied = LUBRICATIONS[values["lubrication"]]
     lengths = {"centre_distance_mm": values["centre"], "links": values["links"]}
     tables = {
@@ -71,8 +71,8 @@ def _loaded(values: Values) -> "DriveCase":
         "sprocket": [{"teeth": values[role], "profile": form} for role in ("driver", "driven")],
         "drive": {
             **{key: value for key, value in lengths.items() if value is not None},
-            "service_factor": factors.service,
-            "joint_application_factor": factors.joint,
+            "service_factor": use.service_factor,
+            "joint_application_factor": use.joint_application_factor,
         },
         "load": {"power_kW": values["power"], "speed_rpm": values["rpm"]},
         "wear": {"condition": supplied.wear_condition},
@@ -109,7 +109,7 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
     """Return what the template shows."""
     from wearsim.drive.part_tables import LONGEST, SERVICE_YEARS
 
-    factors, supplied = use_factors(values), LUBRICATIONS[values["lubrication"]]
+    use, supplied = use_of(values), LUBRICATIONS[values["lubrication"]]
     case = drive.driver.case
     chain, driver, driven = (values[name] for name in ("chain", "driver", "driven"))
     iso, load = SHOCKS[values["shock"]]
@@ -126,8 +126,8 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
         "gost_lubrication": supplied.gost,
         "lubrication_note": " (there is none for dry)" if values["lubrication"] == "dry" else "",
         "shifts": f"{shifts} {'shift' if shifts == 'one' else 'shifts'}",
-        "factors": factors,
-        "limit": _TOO_HARD if factors.joint > _MOST_JOINT_FACTOR else "",
+        "use": use,
+        "limit": _TOO_HARD if use.joint_application_factor > _MOST_JOINT_FACTOR else "",
         "power": amounts["power"],
         "rpm": amounts["rpm"],
         "lubrication": values["lubrication"],

@@ -6,7 +6,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from wearsim.catalogue.catalogues import chains, known_chain_name, nearest
-from wearsim.chain.service_conditions import LUBRICATIONS, SHIFTS, SHOCKS, plain_word, service_conditions
+from wearsim.chain.service_conditions import (
+    LUBRICATIONS,
+    SHIFTS,
+    SHOCKS,
+    ServiceConditions,
+    plain_word,
+    service_conditions,
+)
 from wearsim.errors import Fault
 from wearsim.quantities import either
 
@@ -115,8 +122,8 @@ def _default_rpm(values: Values) -> str:
 
 
 def _default_power(values: Values) -> str:
-    chain, factors = chains()[values["chain"]], use_factors(values)
-    pull = chain.tensile / _SAFETY / max(factors.service, factors.joint)
+    chain, use = chains()[values["chain"]], use_of(values)
+    pull = chain.tensile / _SAFETY / max(use.service_factor, use.joint_application_factor)
     return _rounded(pull * chain.pitch * values["driver"] * values["rpm"] / 6e7)
 
 
@@ -171,27 +178,9 @@ def read_known(typed: Mapping[str, str | None]) -> tuple[dict[str, Any], list[Fa
     return values, faults
 
 
-@dataclass(frozen=True)
-class UseFactors:
-    """Factors of the ratings for how a drive is used."""
-
-    service: float  # f1
-    load: float
-    lubrication: float
-    shifts: float
-    joint: float  # K_e, the product of the three
-
-
-def use_factors(values: Values) -> UseFactors:
-    """Return the factors that follow from lubrication, shocks and hours of a day."""
-    used = service_conditions(values["lubrication"], values["shock"], values["hours_per_day"])
-    return UseFactors(
-        service=used.service_factor,
-        load=used.joint_application.load,
-        lubrication=used.joint_application.lubrication,
-        shifts=used.joint_application.shifts,
-        joint=used.joint_application_factor,
-    )
+def use_of(values: Values) -> ServiceConditions:
+    """Return what follows from lubrication, shocks and hours of a day."""
+    return service_conditions(values["lubrication"], values["shock"], values["hours_per_day"])
 
 
 def shifts_in_words(values: Values) -> str:

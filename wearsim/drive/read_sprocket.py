@@ -87,6 +87,9 @@ def complete_case(tables: CaseTables, document: Document, build: Builder) -> Cas
         text = "gives the specific wear rate: remove it or specific_wear_rate_mm2_per_N (a wrap takes both)"
         faults.add("wear.condition", text)
     duty = complete_duty(case, kind, chain)
+    prices = tables.maintenance
+    if prices is not None and prices.chain_price is not None and prices.sprocket_price is None:
+        faults.add("maintenance.chain_price", "the cost needs sprocket_price too: give both or none")
     drive = build(case, wear, chain, duty)
     critical_depth = _critical_depth(case, drive)
     more_limits = _more_limits(case, drive)

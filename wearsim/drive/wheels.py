@@ -8,7 +8,7 @@ from typing import Any
 from wearsim.case.keys import DriveTables, LoadTable, PlacedSprocketTable
 from wearsim.chain.chain_loop import Wheel
 from wearsim.input.faults import Faults
-from wearsim.mechanisms.wrap.place_in_loop import GivenTakeUp, PlaceInLoop
+from wearsim.mechanisms.wrap.place_in_loop import PlaceInLoop
 
 DRIVER, DRIVEN, IDLER = "driver", "driven", "idler"
 
@@ -244,34 +244,21 @@ def check_block_shares(tables: DriveTables, wheels: Sequence[DriveWheel], faults
 
 
 def check_prices(tables: DriveTables, faults: Faults) -> None:
-    """Name the prices of chain and sprockets of which one needs another."""
-    given = tables.maintenance
-    priced = [table.price is not None for table in tables.sprocket]
-    if given is not None and given.chain_price is not None:
-        if given.sprocket_price is None and not all(priced):
-            faults.add("maintenance.chain_price", "the cost needs sprocket_price too: give both or none")
+    """Name the prices of sprockets that need that of the chain."""
+    if tables.maintenance is not None and tables.maintenance.chain_price is not None:
         return
-    for number, price in enumerate(priced, start=1):
-        if price:
+    for number, table in enumerate(tables.sprocket, start=1):
+        if table.price is not None:
             text = "the cost needs maintenance.chain_price too: give both or none"
             faults.add(f"sprocket.{number}.price", text)
 
 
 def place_of(wheels: Sequence[DriveWheel], shares: tuple[float, ...], number: int) -> PlaceInLoop:
     """Return the loop as one of its sprockets sees it."""
-    taker = next((wheel for wheel in wheels if wheel.table.take_up is not None), None)
-    take_up = None
-    if taker is not None and taker.table.take_up is not None:
-        given = taker.table.take_up
-        take_up = GivenTakeUp(
-            taker.name,
-            None if given.guide_deg is None else math.radians(given.guide_deg),
-            None if given.travel_mm is None else (given.travel_mm[0], given.travel_mm[1]),
-            given.tensioner_force_N or 0.0,
-        )
+    take_ups = ((wheel.name, wheel.table.take_up) for wheel in wheels if wheel.table.take_up is not None)
     in_loop = []
     for wheel in wheels:
         assert wheel.table.position_mm is not None
         x, y = wheel.table.position_mm
         in_loop.append(Wheel(wheel.name, (x, y), wheel.rollers, bool(wheel.table.outside)))
-    return PlaceInLoop(tuple(in_loop), shares, number, take_up)
+    return PlaceInLoop(tuple(in_loop), shares, number, *next(take_ups, ()))

@@ -14,14 +14,9 @@ from wearsim.case.keys.drive_tables import (
     PlacedSprocketTable,
     PlaceTable,
     SprocketTable,
+    TakeUpTable,
 )
-from wearsim.case.keys.study_tables import (
-    DriveMaintenanceTable,
-    MaintenanceTable,
-    OptimiseTable,
-    ServiceTable,
-    Uncertainty,
-)
+from wearsim.case.keys.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
 from wearsim.case.keys.wear_tables import (
     FilmTable,
     MaterialsTable,
@@ -55,6 +50,7 @@ __all__ = [
     "SprocketTable",
     "StopTable",
     "Table",
+    "TakeUpTable",
     "WearTable",
 ]
 
@@ -111,7 +107,6 @@ class DriveTables(CaseTables):
     sprocket: list[PlacedSprocketTable]  # type: ignore[assignment]
     wear: WearTable | None = None  # type: ignore[assignment]
     """None where every sprocket has its own."""
-    maintenance: DriveMaintenanceTable | None = None
 
 
 class CaseTablesOrDrive(CaseTables):

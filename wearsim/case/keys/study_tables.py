@@ -74,7 +74,6 @@ class MaintenanceTable(Table):
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         needs = (
-            ("chain_price", "sprocket_price"),
             ("sprocket_price", "chain_price"),
             ("downtime_hours", "downtime_cost_per_hour"),
             ("downtime_cost_per_hour", "downtime_hours"),
@@ -85,14 +84,6 @@ class MaintenanceTable(Table):
             for key, other in needs
             if getattr(self, key) is not None and getattr(self, other) is None
         ]
-
-
-class DriveMaintenanceTable(MaintenanceTable):
-    """The same of a drive, whose sprockets may have prices of their own."""
-
-    def conflicts(self) -> list[tuple[str, str]]:
-        """Return what is wrong between the keys of this table."""
-        return [fault for fault in super().conflicts() if fault[0] != "chain_price"]
 
 
 Measure = Literal["life_hours", "mass_kg", "peak_pressure_MPa"]

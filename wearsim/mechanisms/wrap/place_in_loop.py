@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from wearsim.case.chain_record import ChainRecord
 from wearsim.case.duty_blocks import GivenDuty, GivenLoad
-from wearsim.case.keys import DriveTable
+from wearsim.case.keys import DriveTable, TakeUpTable
 from wearsim.case.table_inputs import chain_pull, chain_speed, within_strength
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_length import STRETCH, odd_links_warning
@@ -34,17 +34,6 @@ _TRAVEL = 2.0
 
 
 @dataclass(frozen=True)
-class GivenTakeUp:
-    """A wheel that takes up the slack, as the case gives it."""
-
-    wheel: str
-    # direction in which the travel counts [rad]; None for that in which the chain is stretched
-    direction: float | None = None
-    travel: tuple[float, float] | None = None  # ends of the travel [mm]
-    force: float = 0.0  # along the direction, of a spring or a weight [N]; 0 where it is fixed
-
-
-@dataclass(frozen=True)
 class PlaceInLoop:
     """The sprockets of a loop, and which of them a case is about."""
 
@@ -52,7 +41,13 @@ class PlaceInLoop:
     # share of each wheel in the power of the drivers: above 0 for drivers, below for driven, 0 for idlers
     shares: tuple[float, ...]
     wheel: int  # the one that the case is about
-    take_up: GivenTakeUp | None = None
+    taker: str = ""  # the wheel that takes up the slack, empty for none
+    take_up: TakeUpTable | None = None
+
+    @property
+    def force(self) -> float:
+        """Force of a spring or a weight along the direction of the take-up [N]; 0 where it is fixed."""
+        return (self.take_up.tensioner_force_N or 0.0) if self.take_up else 0.0
 
 
 def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInLoop) -> LoopLayout | None:
@@ -63,7 +58,7 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
             case.faults.add(f"drive.{key}", "the sprockets and their position_mm give this: remove it")
     if place.take_up is None and table.sag_percent is not None:
         case.faults.add("drive.sag_percent", "without a take_up the links give the sag: remove it")
-    if place.take_up is not None and place.take_up.force:
+    if place.force:
         for key in ("slack_tension_N", "sag_percent"):
             if getattr(table, key) is not None:
                 case.faults.add(f"drive.{key}", "the force of the take_up gives this: remove one of both")
@@ -71,7 +66,7 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
         return None
     try:
         loop = _loop(chain.pitch, place.wheels)
-        drive = LoopDrive(loop, place.shares, _take_up(case, loop, place), _force(place))
+        drive = LoopDrive(loop, place.shares, _take_up(case, loop, place), place.force)
         layout = seen_from(loop_layout(drive, table.links), place.wheel)
     except (CaseError, GeometryError) as error:
         faults = error.faults if isinstance(error, CaseError) else ()
@@ -111,31 +106,29 @@ def _loop(pitch: float, wheels: tuple[Wheel, ...]) -> ChainLoop:
         raise
 
 
-def _force(place: PlaceInLoop) -> float:
-    return place.take_up.force if place.take_up else 0.0
-
-
 def _take_up(case: ChainRecord, loop: ChainLoop, place: PlaceInLoop) -> TakeUp | None:
-    given = place.take_up
+    given, taker = place.take_up, place.taker
     if given is None:
         return None
-    if given.direction is not None:
-        direction = math.cos(given.direction), math.sin(given.direction)
+    if given.guide_deg is not None:
+        angle = math.radians(given.guide_deg)
+        direction = math.cos(angle), math.sin(angle)
     else:
-        at = loop.index(given.wheel)
+        at = loop.index(taker)
         pulled = loop.directions[at] - loop.directions[at - 1]
         direction = -float(pulled[0]), -float(pulled[1])
         degrees = math.degrees(float(direction_angles(-pulled[None, :])[0]))
         case.assumptions.append(
-            f"take-up {given.wheel!r} moves against the pull of its two spans, at {degrees:.4g} degrees"
+            f"take-up {taker!r} moves against the pull of its two spans, at {degrees:.4g} degrees"
         )
-    travel = given.travel
+    travel = given.travel_mm
     if travel is None:
         travel = -_TRAVEL * loop.pitch, _TRAVEL * loop.pitch
         case.assumptions.append(
-            f"take-up {given.wheel!r} can move by {travel[1]:.4g} mm to both sides, {_TRAVEL:g} pitches"
+            f"take-up {taker!r} can move by {travel[1]:.4g} mm to both sides, {_TRAVEL:g} pitches"
         )
-    return TakeUp(given.wheel, direction, *travel)
+    least, most = travel
+    return TakeUp(taker, direction, least, most)
 
 
 def check_travel(case: ChainRecord, layout: LoopLayout, elongation: float) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import lubricants
-from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_case import DriveCase, chain_case
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_case
 from wearsim.drive.maintenance import part_lives
@@ -41,7 +41,7 @@ def compare_intervals(
     cases = [case, *_options(given)]
     for number, one in enumerate(cases):
         key = f"lubrication.option.{number}" if number else "lubrication"
-        check_ages(_first(one), key, alone=len(cases) == 1)
+        check_ages(chain_case(one), key, alone=len(cases) == 1)
     drives = []
     for number, one in enumerate(cases):
 
@@ -49,7 +49,7 @@ def compare_intervals(
             progress((number + part) / len(cases))
 
         drives.append(_run(one, report))
-    service = _first(case).inputs.get("service", {})
+    service = chain_case(case).inputs.get("service", {})
     return lubrication_study(drives, service.get("km_per_hour"), case.title)
 
 
@@ -90,10 +90,6 @@ def _check_rates(given: GivenInput, options: Sequence[Mapping[str, Any]]) -> Non
     if own and any("lubricant" in option for option in options):
         text = "holds for one lubricant: remove it to compare lubricants, each has its own wear rates"
         raise CaseError([Fault(text, own[0], given.file)])
-
-
-def _first(case: Case | DriveCase) -> Case:
-    return case if isinstance(case, Case) else case.driver.case
 
 
 def _run(case: Case | DriveCase, progress: Callable[[float], None]) -> LubricatedDrive:
