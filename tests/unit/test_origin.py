@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.case.input_origins import input_rows
 from wearsim.drive.load_case import load_case
+from wearsim.input.input_origins import input_rows
 
 CASES = sorted((Path(__file__).parents[2] / "cases").glob("*.toml"))
 CASE = {

@@ -9,7 +9,6 @@ from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
 
-from wearsim.case.input_origins import input_lines
 from wearsim.chain.selection import RatingFinding
 from wearsim.contact.engagement import ContactKind, Engagement, FlankContact, Mechanism
 from wearsim.contact.stop_limits import LIMITS, StopLimit, deepest, stop_limit
@@ -20,6 +19,7 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.geometry.scene import Scene, Stroke
 from wearsim.geometry.wheel_outline import WheelShape
 from wearsim.input.document import GivenInput, read_document
+from wearsim.input.input_origins import input_lines
 from wearsim.input.mechanism_registry import read_case
 from wearsim.lubrication.model import LubricationInput
 from wearsim.notebook import html_rows, one_line

@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from wearsim.case.input_origins import input_lines
 from wearsim.case.model import Case
 from wearsim.drive.wheels import DRIVER, DriveWheel
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput, read_document
+from wearsim.input.input_origins import input_lines
 from wearsim.input.mechanism_registry import read_case
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.notebook import html_rows, one_line

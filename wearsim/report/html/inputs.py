@@ -4,8 +4,8 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from wearsim.case.input_origins import InputRow, input_rows
 from wearsim.catalogue.catalogues import catalogue_rows
+from wearsim.input.input_origins import InputRow, input_rows
 from wearsim.result import WearResult
 
 

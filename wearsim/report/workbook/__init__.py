@@ -5,10 +5,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from wearsim.case.input_origins import InputRow, input_rows
 from wearsim.errors import OutputError
 from wearsim.extras import library
 from wearsim.files import check_free, write_file
+from wearsim.input.input_origins import InputRow, input_rows
 from wearsim.report.workbook.answer_page import write_answer_page
 from wearsim.report.workbook.native_charts import add_charts
 from wearsim.report.workbook.result_page import write_result_page
