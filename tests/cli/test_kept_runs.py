@@ -15,7 +15,6 @@ import pytest
 import wearsim
 from wearsim.catalogue.shipped_cases import shipped_cases
 from wearsim.drive import wrap_life
-from wearsim.drive.drive_case import single_cases
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_case
 from wearsim.drive.part_life import simulate
@@ -95,7 +94,7 @@ def test_what_is_kept_is_what_was_run_number_by_number(keeping):
 
 
 def test_a_run_keeps_no_title(keeping, runs):
-    case = single_cases(wearsim.load_case("drive.toml"))["roll"]
+    case = wearsim.load_case("drive.toml").single_cases["roll"]
     simulate(case)
     found = simulate(replace(case, name="other", title="Another title"))
     assert (found.case, found.title) == ("other", "Another title")
@@ -118,9 +117,9 @@ CHANGES = (
 def test_another_case_is_another_content(two_sprockets):
     """Of one sprocket, of which the other's teeth change the layout alone, and of all cogs of a cassette."""
     given = tomllib.loads(two_sprockets)
-    cases = [single_cases(wearsim.load_case(given))["roll"]]
-    cases += [single_cases(load_case(given, [change]))["roll"] for change in CHANGES]
-    cases += single_cases(wearsim.load_case(SHIPPED["bicycle-cassette"])).values()
+    cases = [wearsim.load_case(given).single_cases["roll"]]
+    cases += [load_case(given, [change]).single_cases["roll"] for change in CHANGES]
+    cases += wearsim.load_case(SHIPPED["bicycle-cassette"]).single_cases.values()
     hashes = [kept_runs.content_hash(case) for case in cases]
     assert len(set(hashes)) == len(cases)
     # What no key of its inputs tells.
@@ -131,12 +130,12 @@ def test_another_case_is_another_content(two_sprockets):
 
 def test_the_same_case_is_the_same_content_in_another_process():
     code = (
-        "import sys, wearsim; from wearsim.drive.drive_case import single_cases; "
+        "import sys, wearsim; "
         "from wearsim.result.kept_runs import content_hash; "
-        "print(*map(content_hash, single_cases(wearsim.load_case(sys.argv[1])).values()))"
+        "print(*map(content_hash, wearsim.load_case(sys.argv[1]).single_cases.values()))"
     )
     case = SHIPPED["packaging-conveyor"]
-    here = [kept_runs.content_hash(one) for one in single_cases(wearsim.load_case(case)).values()]
+    here = [kept_runs.content_hash(one) for one in wearsim.load_case(case).single_cases.values()]
     variables = {**os.environ, "PYTHONHASHSEED": "7"}
     there = subprocess.run(
         [sys.executable, "-c", code, case], capture_output=True, text=True, check=True, env=variables
@@ -145,7 +144,7 @@ def test_the_same_case_is_the_same_content_in_another_process():
 
 
 def test_another_program_keeps_other_runs(monkeypatch, two_sprockets):
-    case = single_cases(wearsim.load_case(tomllib.loads(two_sprockets)))["roll"]
+    case = wearsim.load_case(tomllib.loads(two_sprockets)).single_cases["roll"]
     before = kept_runs.content_hash(case)
     kept_runs._program.cache_clear()
     monkeypatch.setattr(kept_runs, "environment", lambda: {"numpy": "0"})
@@ -156,7 +155,7 @@ def test_another_program_keeps_other_runs(monkeypatch, two_sprockets):
 
 
 def test_a_program_that_was_edited_meanwhile_keeps_nothing(keeping, runs, monkeypatch):
-    case = single_cases(wearsim.load_case("drive.toml"))["roll"]
+    case = wearsim.load_case("drive.toml").single_cases["roll"]
     monkeypatch.setattr(kept_runs, "_since", 0.0)
     simulate(case)
     simulate(case)
@@ -165,7 +164,7 @@ def test_a_program_that_was_edited_meanwhile_keeps_nothing(keeping, runs, monkey
 
 
 def test_mechanisms_of_others_and_what_has_no_hash_are_run(keeping, runs):
-    case = single_cases(wearsim.load_case("drive.toml"))["roll"]
+    case = wearsim.load_case("drive.toml").single_cases["roll"]
     other = type("OtherDrive", (type(case.drive),), {"__module__": "elsewhere"})
     drive = object.__new__(other)
     vars(drive).update(vars(case.drive))
@@ -183,7 +182,7 @@ def test_inputs_name_their_files_as_a_run_does(keeping, tmp_path, two_sprockets)
     (tmp_path / "data" / "log.csv").write_text(log)
     tables = tomllib.loads(two_sprockets)
     tables["load"] = {"duty_file": str(tmp_path / "data" / "log.csv")}
-    case = single_cases(wearsim.load_case(tables))["roll"]
+    case = wearsim.load_case(tables).single_cases["roll"]
     run, read = simulate(case), simulate(case)
     assert run is not read
     assert run.inputs["load"]["duty_file"] == read.inputs["load"]["duty_file"] == "log.csv"
@@ -206,13 +205,13 @@ def test_what_killed_writers_left_goes(keeping):
     old.write_text("half")
     new.write_text("half")
     os.utime(old, (0.0, 0.0))
-    simulate(single_cases(wearsim.load_case("drive.toml"))["roll"])
+    simulate(wearsim.load_case("drive.toml").single_cases["roll"])
     assert not old.exists() and new.exists()
 
 
 def test_a_damaged_file_is_run_anew(keeping, runs):
     """Cut at any place, one byte changed, that of another run, none of ours."""
-    cases = single_cases(wearsim.load_case("drive.toml"))
+    cases = wearsim.load_case("drive.toml").single_cases
     one = simulate(cases["roll"])
     simulate(cases["driver"])
     file = keeping / f"{kept_runs.content_hash(cases['roll'])}.run"
@@ -243,7 +242,7 @@ def test_a_folder_that_cannot_be_written_costs_nothing(cli, kept, runs):
 
 def test_what_was_used_longest_ago_goes_first(keeping, monkeypatch):
     cases = [
-        single_cases(load_case(Path("drive.toml"), [f"sprocket.2.nodes={nodes}"]))["roll"]
+        load_case(Path("drive.toml"), [f"sprocket.2.nodes={nodes}"]).single_cases["roll"]
         for nodes in (61, 63, 65)
     ]
     names = [f"{kept_runs.content_hash(case)}.run" for case in cases]
@@ -259,7 +258,7 @@ def test_what_was_used_longest_ago_goes_first(keeping, monkeypatch):
 
 def test_two_writers_of_one_run(keeping):
     """Side by side, over and over, while a third one reads: never half of a file."""
-    case = single_cases(wearsim.load_case("drive.toml"))["roll"]
+    case = wearsim.load_case("drive.toml").single_cases["roll"]
     run = simulate(case)
     key = kept_runs.content_hash(case)
     file, content = keeping / f"{key}.run", kept_runs._written(run, key)

@@ -48,7 +48,7 @@ def test_a_tooth_form_is_in_the_schema_and_in_the_docs(form):
     assert form in new_case("16B-1", 20, "wrap")
     assert f'"{form}"' in (DOCS / "input.md").read_text(encoding="utf-8")
     kind = "strand" if row.on_strand else "wrap"
-    assert f".{kind}." in mechanism_of({"sprocket": {"profile": form}}).read
+    assert f".{kind}." in mechanism_of({"sprocket": {"profile": form}}).build
 
 
 @pytest.mark.parametrize("form", STANDARDS)

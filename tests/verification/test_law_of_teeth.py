@@ -12,7 +12,6 @@ import pytest
 
 import wearsim
 from wearsim.chain.joint_wear import LEAST_PRESSURE, PITCHES, TURNING, JointState
-from wearsim.drive.drive_case import chain_case, single_cases
 from wearsim.drive.wrap_life import wrap_of
 
 SLOW: dict[str, Any] = {
@@ -98,12 +97,12 @@ def test_a_chain_that_was_read_holds_at_its_drive() -> None:
     (value,) = found.found.values
     assert value.holds_at.endswith("joint.law = 'pressure_speed'")
     assert found.found.parts[0].life == pytest.approx(12_000.0, rel=1e-6)
-    assert chain_hours(chain_case(found.case)) == pytest.approx(12_000.0, rel=1e-6)
+    assert chain_hours(found.case.chain_case) == pytest.approx(12_000.0, rel=1e-6)
     # The rate alone, constant then, gives nearly that life too.
     alone = wearsim.load_case(of_drive(joint={JOINTS.partition(".")[2]: value.value}))
-    assert chain_hours(chain_case(alone)) == pytest.approx(12_000.0, rel=0.03)
+    assert chain_hours(alone.chain_case) == pytest.approx(12_000.0, rel=0.03)
     # Teeth were not read.
-    for before, after in zip(*(single_cases(one).values() for one in (given, found.case)), strict=True):
+    for before, after in zip(*(one.single_cases.values() for one in (given, found.case)), strict=True):
         assert tooth_rates(after) == pytest.approx(tooth_rates(before), rel=1e-12)
 
 
@@ -115,7 +114,7 @@ def test_what_was_read_is_less_sure_at_another_speed() -> None:
     wider = math.exp(math.hypot(math.log(factor), math.log(1.8)))
     for rpm, expected in ((100, factor), (30, wider)):
         load = {"power_kW": 0.015 * rpm, "speed_rpm": rpm}
-        moved = chain_case(wearsim.load_case({**tables, "load": load}))
+        moved = wearsim.load_case({**tables, "load": load}).chain_case
         band = moved.drive.wear_band("chain", moved.wear)
         assert band.high == pytest.approx(expected, rel=1e-9)
         assert band.low == pytest.approx(1.0 / expected, rel=1e-9)

@@ -354,6 +354,16 @@ class Case:
         return html_rows(self.title, input_lines(self.inputs, self.assumptions, self.warnings))
 
     @property
+    def single_cases(self) -> "dict[str, Case]":
+        """Case of the only sprocket by its name, as a whole drive has one of each."""
+        return {"sprocket": self}
+
+    @property
+    def chain_case(self) -> "Case":
+        """Case itself, where a whole drive has one of its chain."""
+        return self
+
+    @property
     def cycles_per_hour(self) -> float:
         """Loadings of a gap that carries rollers in an hour: 60 n over turns per cycle.
 

@@ -17,13 +17,12 @@ from wearsim.command.options import common_options, load_cases, overrides, show
 def check(cases: tuple[Path, ...], as_json: bool, settings: tuple[str, ...]) -> None:
     """Check each CASE (.toml): keys, files, geometry and ratings; print what it assumes."""
     loaded = load_cases(cases, settings, as_json)
-    from wearsim.drive.drive_case import single_cases
     from wearsim.report.check import check_json, check_text
 
     for path, case in zip(cases, loaded, strict=True):
         if as_json:
             click.echo(json.dumps(check_json(case), ensure_ascii=False))
             continue
-        names = single_cases(case)
+        names = case.single_cases
         sprockets = f", sprockets {', '.join(names)}" if len(names) > 1 else ""
         show(check_text(case, f"{path}: ok{sprockets}"))

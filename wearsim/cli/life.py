@@ -201,11 +201,10 @@ def _run(
 
 def _verified(case: "Case | DriveCase") -> "dict[str, GridStudy]":
     """Return the studies of three grids of all sprockets by their names."""
-    from wearsim.drive.drive_case import single_cases
     from wearsim.drive.part_life import verify_grid
 
     with working(f"verifying the grid of {case.title}"):
-        return {name: verify_grid(one) for name, one in single_cases(case).items()}
+        return {name: verify_grid(one) for name, one in case.single_cases.items()}
 
 
 def _show(

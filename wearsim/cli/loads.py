@@ -56,7 +56,6 @@ def loads(
     """
     if worst and phase is not None:
         raise click.UsageError("--worst looks at all phases: give --phase or --worst, not both")
-    from wearsim.drive.drive_case import single_cases
     from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
     from wearsim.report.drive.layout import loads_json_of, loads_text
 
@@ -64,7 +63,7 @@ def loads(
     if sprocket is not None:
         loaded = one_sprocket(loaded, case, sprocket)
     part = None if worst else 1.0 if phase is None else phase
-    teeth = {name: tooth_loads(one, 0.01 * elongation, part) for name, one in single_cases(loaded).items()}
+    teeth = {name: tooth_loads(one, 0.01 * elongation, part) for name, one in loaded.single_cases.items()}
     if as_json:
         print_json(loads_json_of(loaded, teeth), case, loaded.warnings)
         return

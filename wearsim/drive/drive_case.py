@@ -15,7 +15,6 @@ from wearsim.input.mechanism_registry import read_case
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.notebook import html_rows, one_line
 from wearsim.quantities import kind_of_text, with_ranges
-from wearsim.result.ends import SPROCKET
 
 
 @dataclass(frozen=True)
@@ -111,6 +110,22 @@ class DriveCase:
         return {one.name: replace(one.case, title=f"{self.title}: {one.name}") for one in self.sprockets}
 
     @property
+    def single_cases(self) -> dict[str, Case]:
+        """Cases of single sprockets by their names."""
+        return {one.name: one.case for one in self.sprockets}
+
+    @property
+    def chain_case(self) -> Case:
+        """Case of the chain: that of its driver, under the title of the drive."""
+        return replace(
+            self.driver.case,
+            name=self.name,
+            title=self.title,
+            assumptions=self.assumptions,
+            warnings=self.warnings,
+        )
+
+    @property
     def driver(self) -> DriveSprocket:
         """The sprocket that drives the chain."""
         return next(one for one in self.sprockets if one.role == DRIVER)
@@ -129,26 +144,6 @@ class DriveCase:
     def warnings(self) -> tuple[str, ...]:
         """What is doubtful before a run, each once with the sprockets that it is about."""
         return said_of_sprockets({one.name: one.case.warnings for one in self.sprockets}, self.wheels)
-
-
-def single_cases(case: Case | DriveCase) -> dict[str, Case]:
-    """Return the cases of single sprockets by their names; that of one sprocket is ``sprocket``."""
-    if isinstance(case, Case):
-        return {SPROCKET: case}
-    return {one.name: one.case for one in case.sprockets}
-
-
-def chain_case(case: Case | DriveCase) -> Case:
-    """Return the case of a chain: of a whole drive that of its driver, under the title of the drive."""
-    if isinstance(case, Case):
-        return case
-    return replace(
-        case.driver.case,
-        name=case.name,
-        title=case.title,
-        assumptions=case.assumptions,
-        warnings=case.warnings,
-    )
 
 
 def with_one_wear(case: Case | DriveCase) -> Case | DriveCase:

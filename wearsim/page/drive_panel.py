@@ -176,7 +176,7 @@ class DriveAnswer:
         self.panel.show_lives(found)
         self.panel.show_pictures(*await edited.step(lambda: _pictures(found)))
         self._header.show_state("current", "up to date")
-        cases = {one.name: one.case for one in drive.sprockets}
+        cases = drive.single_cases
         return {name: (cases[name], result) for name, result in found.results.items()}
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from wearsim.case.model import Case
-from wearsim.drive.drive_case import DriveCase, chain_case
+from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.part_life import case_clock
 from wearsim.errors import CaseError, Fault
 from wearsim.lubrication.model import LubricationInput, RunningWay
@@ -124,7 +124,7 @@ def relubricated(case: Case | DriveCase, log: RelubricationLog) -> Case:
     CaseError
         The case does not know what a relubrication does, or they are too many to be meant.
     """
-    first = chain_case(case)
+    first = case.chain_case
     if not log.hours:
         return first
     given = _as_logged(case, first, log)
@@ -161,7 +161,7 @@ def _as_logged(case: Case | DriveCase, first: Case, log: RelubricationLog) -> Lu
             text = f"{RELUBRICATION} sets {_AT}: {what}{fault.message}"
             faults.append(Fault(text, "quantity", log.file, log.line))
         raise CaseError(faults) from None
-    found = chain_case(changed).lubrication
+    found = changed.chain_case.lubrication
     assert found is not None
     return found
 

@@ -7,7 +7,7 @@ from wearsim._version import ANSWER_HEAD
 from wearsim.case.model import Case
 from wearsim.chain.selection import rating_warnings
 from wearsim.drive.case_input import CaseInput, loaded
-from wearsim.drive.drive_case import DriveCase, chain_case
+from wearsim.drive.drive_case import DriveCase
 from wearsim.report.answer_table import table_of
 from wearsim.report.drive.layout import layout_json, layout_text
 from wearsim.report.public_answer import Answer
@@ -108,13 +108,13 @@ def check_json(case: Case | DriveCase) -> dict[str, Any]:
         **_layout(case),
         "assumptions": list(_assumptions(case)),
         "warnings": _warnings(case),
-        **rating_json(chain_case(case)),
+        **rating_json(case.chain_case),
     }
 
 
 def check_text(case: Case | DriveCase, head: str) -> str:
     """Return what is known of a case without a run in words, below a head."""
-    one = chain_case(case)
+    one = case.chain_case
     lines = [
         head,
         layout_text(case) if isinstance(case, DriveCase) else "",
@@ -143,5 +143,5 @@ def _assumptions(case: Case | DriveCase) -> tuple[str, ...]:
 
 def _warnings(case: Case | DriveCase) -> list[str]:
     """Return what is doubtful about a case before a run, its ratings among it."""
-    one = chain_case(case)
+    one = case.chain_case
     return [*case.warnings, *rating_warnings(one.drive.ratings(one))]

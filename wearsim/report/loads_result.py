@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
 from wearsim.drive.case_input import CaseInput, loaded
-from wearsim.drive.drive_case import DriveCase, single_cases
+from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import Range, check_ranges
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads, tooth_loads
 from wearsim.quantities import grouped
@@ -137,7 +137,7 @@ def loads(
     check_ranges("loads", {"elongation_percent": elongation_percent, "phase": phase}, _RANGES)
     found = loaded(case)
     part = None if worst else float(phase)
-    cases = single_cases(found)
+    cases = found.single_cases
     loaded_teeth = {name: tooth_loads(one, 0.01 * elongation_percent, part) for name, one in cases.items()}
     return LoadsResult(found, loaded_teeth)
 

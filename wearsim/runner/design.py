@@ -11,7 +11,7 @@ from typing import Any
 from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import nearest
-from wearsim.drive.drive_case import DriveCase, chain_case, single_cases
+from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.wheels import part_names
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import Document
@@ -156,11 +156,11 @@ def value_in(case: Case | DriveCase, key: str) -> Any:
     table, _, rest = key.partition(".")
     number, _, name = rest.partition(".")
     if isinstance(case, Case) or table != "sprocket":
-        return value_at(chain_case(case).inputs, key)
+        return value_at(case.chain_case.inputs, key)
     if not is_number(number) or not 0 < int(number) <= len(case.wheels):
         return None
     (first, *_) = case.wheels[int(number) - 1].parts
-    return value_at(single_cases(case)[first].inputs, f"sprocket.{name}")
+    return value_at(case.single_cases[first].inputs, f"sprocket.{name}")
 
 
 def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]], file: str) -> Design:

@@ -13,7 +13,7 @@ from scipy.stats import qmc
 from wearsim.case.keys.study_tables import Distribution
 from wearsim.case.model import Case, WearBand, log_deviation
 from wearsim.catalogue.catalogues import wear_laws
-from wearsim.drive.drive_case import chain_case, with_one_wear
+from wearsim.drive.drive_case import with_one_wear
 from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
@@ -73,7 +73,7 @@ def load_scattered(
     """Return a case and what of it scatters by its table [uncertainty]."""
     document = read_document(source, overrides)
     loaded = with_one_wear(load_case(source, overrides))
-    case = chain_case(loaded).with_horizon(least_horizon or 0.0)
+    case = loaded.chain_case.with_horizon(least_horizon or 0.0)
     given = _given(case)
     assumptions = []
     for coefficient, (value, band) in _coefficients(case).items():

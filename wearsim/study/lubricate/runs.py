@@ -6,7 +6,7 @@ from typing import Any
 
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import lubricants
-from wearsim.drive.drive_case import DriveCase, chain_case
+from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_case
 from wearsim.drive.maintenance import part_lives
@@ -41,7 +41,7 @@ def compare_intervals(
     cases = [case, *_options(given)]
     for number, one in enumerate(cases):
         key = f"lubrication.option.{number}" if number else "lubrication"
-        check_ages(chain_case(one), key, alone=len(cases) == 1)
+        check_ages(one.chain_case, key, alone=len(cases) == 1)
     drives = []
     for number, one in enumerate(cases):
 
@@ -49,7 +49,7 @@ def compare_intervals(
             progress((number + part) / len(cases))
 
         drives.append(_run(one, report))
-    service = chain_case(case).inputs.get("service", {})
+    service = case.chain_case.inputs.get("service", {})
     return lubrication_study(drives, service.get("km_per_hour"), case.title)
 
 
@@ -114,7 +114,7 @@ def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> Lubricate
     found = drive_life(drive, progress).complete()
     lives = part_lives(found)
     first = drive.driver.case
-    cases = {one.name: one.case for one in drive.sprockets}
+    cases = drive.single_cases
     prices = {name: case.inputs.get("maintenance", {}).get("sprocket_price") for name, case in cases.items()}
     return LubricatedDrive(
         first,

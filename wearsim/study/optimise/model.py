@@ -10,7 +10,7 @@ from typing import Any
 from wearsim.case.keys.study_tables import MeasureLimit, OptimiseTable
 from wearsim.case.model import Case
 from wearsim.catalogue.catalogues import materials
-from wearsim.drive.drive_case import DriveCase, chain_case, single_cases
+from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, Document, read_document
@@ -62,7 +62,7 @@ class OptimiseStudy:
                 "the peak pressure is that on the new flank (Hertz) under the heaviest block of the duty; "
                 "wear changes it"
             )
-        if chain_case(case).fatigue is not None:
+        if case.chain_case.fatigue is not None:
             found.append(WITH_FATIGUE)
         return found
 
@@ -71,7 +71,7 @@ def load_optimise(source: CaseSource, overrides: Sequence[str], evaluations: int
     """Return what is asked of a case by its table [optimise]."""
     document = read_document(source, overrides)
     loaded = load_case(source, overrides)
-    case = chain_case(loaded)
+    case = loaded.chain_case
     if "optimise" not in case.inputs:
         text = "this table is required: it tells what may change, as parameters by their keys"
         raise CaseError([Fault(text, "optimise", document.faults.file)])
@@ -85,7 +85,7 @@ def load_optimise(source: CaseSource, overrides: Sequence[str], evaluations: int
         # A life that runs beyond its high limit must be seen to.
         horizon = max(life.low or 0.0, _BEYOND * (life.high or 0.0), case.run.horizon_hours)
         loaded = load_case(source, [*overrides, f"run.horizon_hours={horizon!r}"])
-        case = replace(chain_case(loaded), title=case.title)
+        case = replace(loaded.chain_case, title=case.title)
     data = {name: part for name, part in document.data.items() if name != "optimise"}
     data = replaced(data, ("run", "horizon_hours"), case.run.horizon_hours)
     given, space = _with_files(replace(document, data=data), space)
@@ -150,7 +150,7 @@ _M3_PER_MM3 = 1e-9
 
 def blank_mass(case: Case | DriveCase) -> float:
     """Return the mass of new sprockets: their outlines times face width and density."""
-    return math.fsum(_blank_mass(one) for one in single_cases(case).values())
+    return math.fsum(_blank_mass(one) for one in case.single_cases.values())
 
 
 def _blank_mass(case: Case) -> float:
@@ -172,7 +172,7 @@ def density(case: Case) -> float:
 
 def mass_assumption(case: Case | DriveCase) -> str:
     """Return what the mass takes for granted."""
-    singles = list(single_cases(case).values())
+    singles = list(case.single_cases.values())
     of = " and ".join(dict.fromkeys(f"{_material(one)} with {density(one):g} kg/m3" for one in singles))
     whole = (
         "outlines over the face widths of all sprockets"

@@ -9,7 +9,7 @@ import pandas as pd
 
 from wearsim.case.keys.study_tables import MeasureLimit
 from wearsim.case.model import Case
-from wearsim.drive.drive_case import DriveCase, single_cases
+from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.part_life import new_peak_pressure as single_peak_pressure
 from wearsim.errors import StudyError, WearsimError
 from wearsim.report.text_lines import counts_by_kind
@@ -23,7 +23,7 @@ MAXIMISED = ("life_hours",)
 
 def new_peak_pressure(case: Case | DriveCase) -> float:
     """Return the highest pressure on the new flanks of a case, of a drive that of its worst sprocket."""
-    return max(map(single_peak_pressure, single_cases(case).values()))
+    return max(map(single_peak_pressure, case.single_cases.values()))
 
 
 _OF_THE_CASE: dict[str, Callable[[Case | DriveCase], float]] = {

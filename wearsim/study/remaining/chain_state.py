@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from wearsim.case.model import Case, WearBand
-from wearsim.drive.drive_case import DriveCase, chain_case
+from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.wrap_life import chain_clock, wrap_of
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
@@ -85,7 +85,7 @@ def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -
     CaseError
         What is wrong with case or readings, or a reading beyond the limit that no other one contradicts.
     """
-    first = chain_case(case)
+    first = case.chain_case
     if not first.drive.wear_coefficients:
         text = f"readings of a chain need one that wraps the sprocket: {instead_of(first)}"
         raise CaseError([Fault(text, "mechanism.kind", first.name)])

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.case.model import Case, WearBand
-from wearsim.drive.drive_case import DriveCase, chain_case
+from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.part_life import simulate
 from wearsim.drive.wrap_life import chain_clock, wrap_of
 from wearsim.errors import CaseError, Fault
@@ -78,7 +78,7 @@ def read_part(case: Case | DriveCase, reading: SingleReading, sprocket: str | No
     if reading.quantity == ELONGATION:
         if sprocket is not None:
             raise _fault(reading, "is read of the chain, which all sprockets share: leave the sprocket out")
-        return chain_case(case)
+        return case.chain_case
     if isinstance(case, Case):
         if sprocket is not None:
             raise _fault(reading, "is read on the only sprocket of this case: leave its name out")
