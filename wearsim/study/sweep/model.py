@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from wearsim.case.keys import CaseTables, PlacedSprocketTable
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import (
     CaseSource,
@@ -94,14 +93,6 @@ def _check_values(given: Document, document: Document, cases: Design, axes: Sequ
 
 def _wrong(tables: Mapping[str, Any], model: type[Table]) -> Iterator[tuple[str, str]]:
     """Give the keys whose values are wrong beside any others."""
-    sprockets = tables.get("sprocket")
-    if isinstance(sprockets, list):
-        for number, table in enumerate(sprockets, start=1):
-            for key, message in _wrong(table, PlacedSprocketTable):
-                yield f"sprocket.{number}.{key}", message
-        # The others are those of one sprocket, which may be left out.
-        tables = {key: table for key, table in tables.items() if key != "sprocket"}
-        model = CaseTables
     try:
         model.model_validate(tables)
     except ValidationError as error:
