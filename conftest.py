@@ -11,9 +11,4 @@ def _looked_through(path: Path) -> bool:
 
 _PAGE = Path(__file__).parent / "wearsim" / "page"
 
-_PAPER = Path(__file__).parent / "tests" / "golden" / "paper.py"  # a program that sets its own environment
-
-collect_ignore = [
-    *(str(path) for path in sorted(_PAGE.glob("*.py")) if not _looked_through(path)),
-    str(_PAPER),
-]
+collect_ignore = [str(path) for path in sorted(_PAGE.glob("*.py")) if not _looked_through(path)]
