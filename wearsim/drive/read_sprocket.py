@@ -66,11 +66,12 @@ def sound_tables(data: dict[str, Any], faults: Faults, model: type[_Tables]) -> 
         return model.model_validate(data), set()
     except ValidationError as error:
         faults.add_validation(error, model)
-        rest = _sound_part(data, error, model)
+        wrong = _wrong_tables(data, error)
+        rest = _sound_part(data, error, wrong, model)
         if rest is None:
             faults.check()
             raise
-        return rest, _wrong_tables(data, error)
+        return rest, wrong
 
 
 def complete_case(tables: CaseTables, document: Document, build: Builder) -> Case | None:
@@ -263,9 +264,11 @@ def _check_load(data: Mapping[str, Any], faults: Faults) -> None:
         faults.add("load.speed_rpm", "this key is required and missing")
 
 
-def _sound_part(data: dict[str, Any], error: ValidationError, model: type[_Tables]) -> _Tables | None:
+def _sound_part(
+    data: dict[str, Any], error: ValidationError, wrong: set[str], model: type[_Tables]
+) -> _Tables | None:
     """Return the case without its wrong keys, to look for more faults; None if that is none."""
-    sound, wrong = copy.deepcopy(data), _wrong_tables(data, error)
+    sound = copy.deepcopy(data)
     whole = {"duty", "fatigue", "lubrication", "uncertainty", "optimise"} & wrong
     for name in whole:
         sound.pop(name, None)
