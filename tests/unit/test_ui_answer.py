@@ -8,7 +8,9 @@ from nicegui import Client, ui
 from nicegui.page import page
 
 import wearsim
+from wearsim.input.document import CaseText
 from wearsim.page.answer_panel import AnswerPanel
+from wearsim.page.answers import SprocketAnswer
 
 WRAP = {
     "format_version": 1,
@@ -24,9 +26,10 @@ WRAP = {
 def test_overload_stands_below_the_hours(power, words):
     """The rating of no. 40 with 19 teeth at 1000 rpm is 4.60 kW."""
     load = {"power_kW": power, "speed_rpm": 1000}
-    result = wearsim.simulate(wearsim.load_case({**WRAP, "load": load}))
+    case = wearsim.load_case({**WRAP, "load": load})
+    answer = SprocketAnswer(CaseText(None, ""), case).words(wearsim.simulate(case))
     with Client(page("/answer")) as client:
-        AnswerPanel({}).show_life(result)
+        AnswerPanel({}).show_words(answer)
         texts = [one.text for one in client.elements.values() if isinstance(one, ui.label)]
     told = [text for text in texts if "verloaded" in text]
     if words is None:

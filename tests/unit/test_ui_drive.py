@@ -13,8 +13,9 @@ from wearsim.drive import life
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
 from wearsim.input.document import CaseText
+from wearsim.page.answer_panel import AnswerPanel
+from wearsim.page.answers import DriveAnswer, drive_headline, taken_inputs
 from wearsim.page.case_file import new_file
-from wearsim.page.drive_panel import DrivePanel, drive_headline, taken_inputs
 from wearsim.page.edited_input import EditedInput, StaleError
 from wearsim.page.fields import form_fields, value_at
 from wearsim.page.form_panel import FormPanel
@@ -72,7 +73,7 @@ def test_ratings_stand_beside_the_hours(power, words):
     load = {"power_kW": power, "speed_rpm": 1000}
     found = drive_life(load_drive({**DRIVE, "load": load}))
     with Client(page("/drive")) as client:
-        DrivePanel({}).show_lives(found)
+        AnswerPanel({}).show_words(DriveAnswer(CaseText(Path("drive.toml"), ""), found.drive).words(found))
         texts = [one.text for one in client.elements.values() if isinstance(one, ui.label)]
     place = texts.index("> 20 h")
     assert texts[place + 2].startswith(words)

@@ -1,16 +1,16 @@
-"""The answer: faults, life, margins, pictures, and what all of it rests on."""
+"""The answer: faults, lives, ratings, margins, pictures, and what all of it rests on."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
+from markupsafe import Markup
 from nicegui import ui
 
 from wearsim.case.model import Case
 from wearsim.chain.selection import RatingFinding
-from wearsim.drive.part_life import simulate
-from wearsim.page.answers import Pictures, edited_case, estimate, is_slow, pictures
+from wearsim.page.answers import DriveAnswer, FirstLooks, Pictures, Rows, SprocketAnswer, Words, answer_to
 from wearsim.page.chart_colours import Palette
-from wearsim.page.chart_view import ChartView, SketchView
+from wearsim.page.chart_view import ChartView, Drawing
 from wearsim.page.edited_input import EditedInput
 from wearsim.page.header import Header
 from wearsim.page.text_elements import (
@@ -22,79 +22,111 @@ from wearsim.page.text_elements import (
     warning_list,
 )
 from wearsim.quantities import grouped
-from wearsim.report.answer import OVERLOADED, chain_findings, ending, headline, overload_text, page_findings
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
-from wearsim.report.html.run_charts import tooth_load_chart
-from wearsim.report.text_lines import stated_and_defaults
 from wearsim.result import Life, LowerBound, WearResult
-from wearsim.result.lives import hours
 
 
 class AnswerPanel:
-    """The answer in the place where it is made."""
+    """The answer in the place where it is made, of one sprocket or of several."""
 
     def __init__(self, palette: Palette) -> None:
         self._palette = palette
-        self._pictures: Pictures | None = None
-        self._loads: Chart | None = None
+        self._charts: dict[ui.element, Sequence[Chart]] = {}
         self._views: dict[str, ChartView] = {}
+        self._pictures = Pictures({})
         self._life = ui.element("section").classes("ws-life-card ws-card")
-        self._tooth = ui.element("div").classes("ws-pair")
-        with self._tooth:
-            self._teeth = ui.element("div").classes("ws-stack")
-            self._sketch = SketchView()
-        self._load = ui.element("div")
+        with ui.element("div").classes("ws-pair") as self._drive:
+            self._drawing = Drawing(self._choose_place)
+            with ui.element("section").classes("ws-stack") as self._tooth:
+                self._places = ui.html("", sanitize=False)
+                self._chosen = ui.select([], label="Flank of", on_change=self._show_flank)
+                self._chosen.classes("ws-chosen").props("outlined dense")
+                self._flanks = ui.element("div").classes("ws-stack")
+        self._loads = ui.element("div")
+        with ui.element("section").classes("ws-card") as self._lives:
+            heading("Service life of all parts")
+            self._bars = ui.html("", sanitize=False)
         self._ratings = ui.element("section").classes("ws-card")
         self._margins = ui.element("section").classes("ws-card")
-        self._charts = ui.element("div").classes("ws-pair")
+        self._runs = ui.element("div").classes("ws-pair")
         self._text = ui.element("section").classes("ws-card")
-        for place in (self._life, self._tooth, self._ratings, self._margins, self._text):
+        for place in self._all:
             place.set_visibility(False)
+
+    @property
+    def _all(self) -> tuple[ui.element, ...]:
+        lives = self._life, self._loads, self._lives, self._ratings, self._margins
+        return *lives, self._drive, self._tooth, self._runs, self._text
 
     def mark_old(self) -> None:
         """Mark everything as the answer to an earlier input."""
-        answers = self._life, self._tooth, self._load, self._ratings
-        for place in (*answers, self._margins, self._charts, self._text):
+        for place in self._all:
             place.classes("ws-old")
 
-    def show_life(self, result: WearResult) -> None:
-        """Show the life and everything in words."""
-        self._fill_life(result)
-        self._fill_text(result)
-        for place in (self._life, self._text, self._ratings):
-            place.set_visibility(True)
-            place.classes(remove="ws-old")
-        self._fill_ratings(result)
+    def show_first(self, looks: FirstLooks) -> None:
+        """Show what is known before a life, or nothing."""
+        if looks.layout is not None:
+            self._show_drawing(looks.layout, "Layout, to scale: choose a sprocket")
+            _show(self._drive, True)
+        self._show_charts(self._loads, [] if looks.loads is None else [looks.loads])
+        _show(self._loads, looks.loads is not None)
 
-    def show_loads(self, chart: Chart | None) -> None:
-        """Show what the teeth carry, or nothing."""
-        self._loads = chart
-        self._load.set_visibility(chart is not None)
-        self._show_charts(self._load, [] if chart is None else [chart])
-        self._load.classes(remove="ws-old")
+    def show_words(self, words: Words) -> None:
+        """Show the lives and everything in words."""
+        self._fill_life(words)
+        self._ratings.clear()
+        with self._ratings:
+            rating_list(words.ratings)
+        self._text.clear()
+        with self._text:
+            for name, rows in words.findings.items():
+                heading(name)
+                row_list(rows)
+            assumption_list(words.stated, words.defaults)
+        for place in (self._life, self._text):
+            _show(place, True)
+        _show(self._ratings, bool(words.ratings))
 
     def show_pictures(self, pictures: Pictures) -> None:
-        """Show charts, sketch and margins."""
+        """Show flanks, drawings, charts and margins."""
         self._pictures = pictures
-        self._show_charts(self._teeth, pictures.tooth)
-        self._show_charts(self._charts, pictures.charts)
-        self._sketch.show(pictures.scene)
+        if not pictures.places:
+            self._show_drawing(pictures.drawing, "Drive, to scale")
+        self._bars.content = str(pictures.bars or "")  # every text escaped
+        self._places.content = "".join(f'<span id="{place}"></span>' for place in pictures.places)
+        names, chosen = list(pictures.flanks), self._chosen.value
+        self._chosen.set_options(names, value=chosen if chosen in names else names[0])
+        self._chosen.set_visibility(len(names) > 1)
+        self._show_flank()
+        self._show_charts(self._runs, pictures.charts)
         self._fill_margins(pictures.margins)
-        for place in (self._tooth, self._margins, self._charts):
-            place.set_visibility(True)
-            place.classes(remove="ws-old")
+        for place in (self._drive, self._tooth):
+            _show(place, True)
+        _show(self._lives, pictures.bars is not None)
+        _show(self._margins, bool(pictures.margins))
+        _show(self._runs, bool(pictures.charts))
 
     def draw(self, palette: Palette) -> None:
         """Draw the charts in other colours."""
         self._palette = palette
-        if self._loads is not None:
-            self._show_charts(self._load, [self._loads])
-        if self._pictures is not None:
-            self._show_charts(self._teeth, self._pictures.tooth)
-            self._show_charts(self._charts, self._pictures.charts)
+        for place, charts in self._charts.items():
+            self._show_charts(place, charts)
+
+    def _show_drawing(self, drawing: Markup | None, title: str) -> None:
+        self._drawing.show(drawing, title)
+
+    def _choose_place(self, place: str) -> None:
+        """Show the flank that a link of the layout leads to."""
+        if place in self._pictures.places:
+            self._chosen.value = self._pictures.places[place]
+            ui.run_javascript(f'getHtmlElement({self._tooth.id}).scrollIntoView({{block: "nearest"}})')
+
+    def _show_flank(self) -> None:
+        self._show_charts(self._flanks, self._pictures.flanks.get(self._chosen.value or "", ()))
 
     def _show_charts(self, place: ui.element, charts: Sequence[Chart]) -> None:
+        self._charts[place] = charts
         # A chart of other panels is another element.
         wanted = [f"{place.id}:{chart.name}:{chart.tall}" for chart in charts]
         shown = [name for name in self._views if name.startswith(f"{place.id}:")]
@@ -109,43 +141,22 @@ class AnswerPanel:
             for name, chart in zip(wanted, charts, strict=True):
                 self._views[name] = ChartView(chart, self._palette)
 
-    def _fill_life(self, result: WearResult) -> None:
-        reached = isinstance(result.life, Life)
+    def _fill_life(self, words: Words) -> None:
         self._life.clear()
         with self._life:
-            ui.label(result.title).classes("ws-title").props("role=heading aria-level=2")
-            ui.label(headline(result)).classes("ws-hours")
-            ui.label(ending(result) + ("" if reached else " (limit not reached)"))
-            if result.overloaded:
-                ui.label(f"{OVERLOADED} {overload_text(result)}").classes("ws-overloaded")
-            with ui.element("dl").classes("ws-band"):
-                for what, life in (
-                    ("at the high end of the wear coefficient", result.life_low),
-                    ("as given", result.life),
-                    ("at the low end", result.life_high),
-                ):
-                    with ui.element("div"):
-                        text_element("dt", what)
-                        text_element("dd", hours(life))
-            ui.label(f"Band: {result.band}.").classes("ws-muted")
-            warning_list(result.warnings)
-
-    def _fill_ratings(self, result: WearResult) -> None:
-        self._ratings.set_visibility(bool(result.ratings))
-        self._ratings.clear()
-        with self._ratings:
-            rating_list(result.ratings)
-
-    def _fill_text(self, result: WearResult) -> None:
-        taken, defaults = stated_and_defaults(result.assumptions)
-        self._text.clear()
-        with self._text:
-            heading("Findings")
-            row_list(page_findings(result))
-            if result.practice is not None:
-                heading("What ends first, published rules, events")
-                row_list(chain_findings(result.ends, result.practice, result.events))
-            assumption_list(taken, defaults)
+            ui.label(words.title).classes("ws-title").props("role=heading aria-level=2")
+            ui.label(words.hours).classes("ws-hours")
+            ui.label(words.lines[0])
+            if words.alarm:
+                ui.label(words.alarm).classes("ws-overloaded")
+            for line in words.lines[1:]:
+                ui.label(line)
+            _fill_band(words.band)
+            if words.note:
+                ui.label(words.note).classes("ws-muted")
+            if words.rows:
+                row_list(words.rows)
+            warning_list(words.warnings)
 
     def _fill_margins(self, found: Sequence[Margin]) -> None:
         self._margins.clear()
@@ -155,6 +166,22 @@ class AnswerPanel:
                 for one in found:
                     text_element("dt", f"{one.name}{' (ended the life)' if one.ended else ''}")
                     used_part(one.name, one.used, f"{one.value} of {one.limit} {one.unit}")
+
+
+def _show(place: ui.element, seen: bool) -> None:
+    """Show a place as the answer to the present input, or hide it."""
+    place.set_visibility(seen)
+    place.classes(remove="ws-old")
+
+
+def _fill_band(band: Rows) -> None:
+    if not band:
+        return
+    with ui.element("dl").classes("ws-band"):
+        for what, life in band:
+            with ui.element("div"):
+                text_element("dt", what)
+                text_element("dd", life)
 
 
 _NEAR = 0.9
@@ -186,8 +213,8 @@ def rating_list(ratings: Iterable[RatingFinding]) -> None:
                 ui.label(light(one)).classes("ws-light").props(f"data-light={light(one)}")
 
 
-class CaseAnswer:
-    """The answer in the place where it is made."""
+class AnswerFinder:
+    """Finds the answer to an input and shows it step by step, in the place where it is made."""
 
     def __init__(
         self, header: Header, on_sound: Callable[[Mapping[str, Any]], None], palette: Palette
@@ -197,32 +224,35 @@ class CaseAnswer:
         self.lives: Mapping[str, Life | LowerBound] = {}
 
     async def find(self, edited: EditedInput) -> dict[str, tuple[Case, WearResult]]:
-        """Find the answer and show it step by step; return case and result of the only wheel."""
-        case = await edited.step(lambda: edited_case(edited.source, edited.file))
-        if is_slow(case):
-            await self._show_first(edited, case)
-        edited.check()
-        result = await edited.step(lambda: simulate(case, edited.watch))
-        self.lives = {"life": result.life}
-        self._show_sound(case)
-        self._header.show_life(headline(result))
-        self._header.show_state("drawing", "up to date, drawing")
-        self.panel.show_life(result)
-        if not is_slow(case):
-            self.panel.show_loads(None)
-        self.panel.show_pictures(await edited.step(lambda: pictures(case, result)))
-        self._header.show_state("current", "up to date")
-        return {case.name: (case, result)}
+        """Return case and result of every sprocket."""
+        answer = await edited.step(lambda: answer_to(edited))
+        if answer.is_slow:
+            await self._show_first(edited, answer)
+        return await self._show_all(edited, answer)
 
-    async def _show_first(self, edited: EditedInput, case: Case) -> None:
-        """Show what is known before a life that takes long: loads, and about how long it is."""
-        loads = await edited.step(lambda: tooth_load_chart(case))
-        self._show_sound(case)
-        self.panel.show_loads(loads)
-        rough = await edited.step(lambda: estimate(edited.source, case, edited.check))
+    async def _show_first(self, edited: EditedInput, answer: SprocketAnswer | DriveAnswer) -> None:
+        """Show what is known before a life that takes long, and about how long it is."""
+        looks = await edited.step(answer.first_looks)
+        self._on_sound(answer.taken())
+        self.panel.show_first(looks)
+        rough: Any = await edited.step(lambda: answer.estimate(edited.check))
         if rough is not None:
-            self._header.show_life(f"about {headline(rough)}")
+            self._header.show_life(f"about {answer.headline(rough)}")
             self._header.show_state("estimate", "first estimate, computing")
 
-    def _show_sound(self, case: Case) -> None:
-        self._on_sound({**case.inputs, "title": case.title})
+    async def _show_all(
+        self, edited: EditedInput, answer: SprocketAnswer | DriveAnswer
+    ) -> dict[str, tuple[Case, WearResult]]:
+        edited.check()
+        result: Any = await edited.step(lambda: answer.life(edited.watch))
+        words = await edited.step(lambda: answer.words(result))
+        self.lives = answer.lives(result)
+        self._on_sound(answer.taken())
+        self._header.show_life(answer.headline(result))
+        self._header.show_state("drawing", "up to date, drawing")
+        self.panel.show_words(words)
+        if not answer.is_slow:
+            self.panel.show_first(FirstLooks())
+        self.panel.show_pictures(await edited.step(lambda: answer.pictures(result)))
+        self._header.show_state("current", "up to date")
+        return answer.runs(result)

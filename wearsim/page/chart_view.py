@@ -6,10 +6,8 @@ from importlib import resources
 from markupsafe import Markup
 from nicegui import ui
 
-from wearsim.geometry.scene import Scene
 from wearsim.page.chart_colours import Palette, figure
 from wearsim.report.html.charts import Chart
-from wearsim.report.html.sketch import sketch
 
 _LINK = """(event) => {
     const link = event.target.closest("a");
@@ -72,32 +70,20 @@ class ChartView:
         self._plot.update_figure(figure(self._chart, self._palette, self._factor()))
 
 
-class SketchView:
-    """A drawing to scale in the place where it is made."""
+class Drawing:
+    """A drawing to scale in the place where it is made; a link in it chooses something."""
 
-    def __init__(self) -> None:
-        with ui.element("figure").classes("ws-card") as self._place:
-            ui.label("Drive, to scale").classes("ws-caption").props("role=heading aria-level=3")
-            self._drawing = ui.html("", sanitize=False)
-
-    def show(self, scene: Scene | None) -> None:
-        """Show a drive, or nothing."""
-        self._place.set_visibility(scene is not None)
-        self._drawing.content = str(sketch(scene))  # every text escaped
-
-
-class LinkedDrawing:
-    """A drawing whose links choose something, in the place where it is made."""
-
-    def __init__(self, title: str, on_choose: Callable[[str], None]) -> None:
-        with ui.element("figure").classes("ws-card ws-layout"):
-            ui.label(title).classes("ws-caption").props("role=heading aria-level=2")
+    def __init__(self, on_choose: Callable[[str], None]) -> None:
+        with ui.element("figure").classes("ws-card ws-layout") as self._place:
+            self._title = ui.label().classes("ws-caption").props("role=heading aria-level=3")
             self._drawing = ui.html("", sanitize=False)
         self._drawing.on("click", lambda event: on_choose(str(event.args)), js_handler=_LINK)
 
-    def show(self, drawing: Markup) -> None:
-        """Show a drawing, of which every text is escaped."""
-        self._drawing.content = str(drawing)
+    def show(self, drawing: Markup | None, title: str) -> None:
+        """Show a drawing, of which every text is escaped, or nothing."""
+        self._place.set_visibility(drawing is not None)
+        self._title.text = title
+        self._drawing.content = str(drawing or "")
 
 
 def style(palettes: tuple[Palette, Palette]) -> str:

@@ -9,14 +9,13 @@ from nicegui import background_tasks, ui
 
 from wearsim.case.model import Case
 from wearsim.errors import Fault, WearsimError
-from wearsim.input.document import CaseText, is_whole_drive
-from wearsim.page.answer_panel import CaseAnswer
+from wearsim.input.document import CaseText
+from wearsim.page.answer_panel import AnswerFinder
 from wearsim.page.answers import error_faults
 from wearsim.page.case_file import CaseFile
 from wearsim.page.chart_colours import palettes
 from wearsim.page.chart_view import style
 from wearsim.page.comparison_panel import Comparison
-from wearsim.page.drive_panel import DriveAnswer
 from wearsim.page.edit_history import EditHistory
 from wearsim.page.edited_input import EditedInput, StaleError
 from wearsim.page.fields import Field
@@ -48,7 +47,6 @@ class CasePage:
         self._version, self._answered, self._gone = 1, 0, False
         self._task: asyncio.Task[None] | None = None
         self._wheels: tuple[int, Mapping[str, tuple[Case, WearResult]]] = 0, {}
-        self._answer: CaseAnswer | DriveAnswer | None = None
         self._palette = palettes()[0]
         self._history = EditHistory()
         self._client = ui.context.client
@@ -95,13 +93,13 @@ class CasePage:
             with ui.element("section").classes("ws-answer").props('aria-label="Answer"'):
                 self._faults = FaultList()
                 self._comparison = Comparison()
-                self._place = ui.element("div").classes("ws-answer-place")
+                with ui.element("div").classes("ws-answer-place"):
+                    self._answer = AnswerFinder(self._header, self._show_sound, self._palette)
 
     def _draw(self, dark: bool) -> None:
         self._source.set_theme("basicDark" if dark else "basicLight")
         self._palette = palettes()[dark]
-        if self._answer is not None:
-            self._answer.panel.draw(self._palette)
+        self._answer.panel.draw(self._palette)
 
     def _typed(self, field: Field, typed: str) -> None:
         self._edit(with_value(self._text, field.key, typed, field.is_text), field.key)
@@ -173,8 +171,7 @@ class CasePage:
         self._header.show_state("computing", "computing")
         self._header.enable("Pin", False)
         self._comparison.mark_old()
-        if self._answer is not None:
-            self._answer.panel.mark_old()
+        self._answer.panel.mark_old()
         if self._task is None or self._task.done():
             self._task = background_tasks.create(self._catch_up(), name="answer")
 
@@ -198,19 +195,9 @@ class CasePage:
     async def _find(self, version: int) -> None:
         source = CaseText(self._keeper.file.path, self._text)
         edited = EditedInput(source, self._keeper.file, self._staleness(version), self._progress(version))
-        answer = self._fitting_answer()
-        self._wheels = version, await answer.find(edited)
-        self._comparison.show(self._text, answer.lives)
+        self._wheels = version, await self._answer.find(edited)
+        self._comparison.show(self._text, self._answer.lives)
         self._header.enable("Pin", True)
-
-    def _fitting_answer(self) -> CaseAnswer | DriveAnswer:
-        """Return the answer, a new one where the input has become one of another kind."""
-        kind = DriveAnswer if is_whole_drive(parsed_tables(self._text) or {}) else CaseAnswer
-        if not isinstance(self._answer, kind):
-            self._place.clear()
-            with self._place:
-                self._answer = kind(self._header, self._show_sound, self._palette)
-        return self._answer
 
     def _show_sound(self, taken: Mapping[str, Any]) -> None:
         """Show that the input has no faults, and what it takes where it gives nothing."""
