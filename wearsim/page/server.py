@@ -31,7 +31,8 @@ def serve(
     app.on_shutdown(stopping.set)
     host = FastAPI(openapi_url=None, docs_url=None, redoc_url=None)
     ui.run_with(host, dark=None, reconnect_timeout=_RECONNECT, show_welcome_message=False)
-    threading.Thread(target=_warm_up, args=(warm, stopping), daemon=True).start()
+    # Not sooner: while it starts, nicegui walks through all objects, and a tuple half made breaks by that.
+    app.on_startup(threading.Thread(target=_warm_up, args=(warm, stopping), daemon=True).start)
     settings = uvicorn.Config(
         Guard(host, server_socket.getsockname()[1]),
         log_config=None,
