@@ -221,7 +221,7 @@ def test_locked_case_gives_the_same_life(cli, wrapped, tmp_path):
 
 def test_every_cycle_on_its_own_is_refused(cli, wrapped, conforms):
     """Some 1e7 updates of a millisecond; the message says which number of cycles is possible."""
-    phases = ("--set", "mechanism.phases=8")
+    phases = ("--set", "mechanism.phases=8", "--set", "sprocket.nodes=201")
     slow = (*phases, "--set", "run.method=per_cycle")
     done = cli("life", "--json", wrapped, *slow)
     assert done.code == 3

@@ -146,7 +146,8 @@ def test_every_chain_leapt_over_has_lived_its_life():
     assert np.diff(run.cycles).min() > 0.0 and np.diff(run.mates).max() >= 1.0
     assert run.cycles[ends] == pytest.approx(run.mates[ends] * contact.cycles_per_mate, rel=1e-6)
     assert run.elongation[ends] == pytest.approx(contact.elongation_limit, rel=1e-6)
-    assert (np.diff(run.all_depth, axis=0) >= 0.0).all()
+    # Depth follows from area, to rounding.
+    assert np.diff(run.all_depth, axis=0).min() >= -1e-15
 
 
 def test_a_horizon_is_met_after_leaps():

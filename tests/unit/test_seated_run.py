@@ -68,14 +68,14 @@ def test_springs_press_as_hertz_does():
                 width,
                 compliance,
                 np.zeros(cells),
+                np.zeros(cells),
                 0,
                 cells,
                 radius,
                 0.0,
                 radius - sink,
                 np.zeros(cells),
-                0,
-                np.zeros((3, cells)),
+                np.zeros(cells),
                 out,
             )
             low, high = (low, sink) if out[1] > load else (sink, high)
@@ -109,10 +109,12 @@ def test_pull_of_the_rollers_is_the_slope_of_the_energy():
     places = of.seating(np.array([1e-9, 1.0, 0.0, np.inf, 1.0]), bodies.unworn)
     places.seat(bodies.area, bodies.x, bodies.y, NEW_MATE)
     mechanism, points = of.mechanism, bodies.unworn.shape[1]
-    rollers, work, cells = 3, np.zeros((seats.SEAT_WORK_ROWS, of.most_rollers)), np.zeros((5, points))
+    rollers, work = 3, np.zeros((seats.SEAT_WORK_ROWS, of.most_rollers))
+    cells = np.zeros((seats.CELL_ROWS + 2 * rollers, points))
     work[seats._HIGH, :rollers] = points
-    compliance, recess = np.full((rollers, points), 1e-6), np.zeros((rollers, points))
+    compliance, raised = np.full((rollers, points), 1e-6), np.zeros((rollers, points))
     start = places.places[:, :rollers].copy()
+    seats.point_pulls(mechanism.constants(0.01), 0.1, 0.2, cells[seats._PULLS])
 
     def energy(place):
         work[seats._TRIAL_X : seats._TRIAL_Y + 1, :rollers] = place.reshape(2, rollers)
@@ -121,15 +123,12 @@ def test_pull_of_the_rollers_is_the_slope_of_the_energy():
             rollers,
             0,
             mechanism.constants(0.01),
-            0.1,
-            0.2,
             bodies.x,
             bodies.y,
             np.tile(bodies.unworn[5], (of.bodies, 1)),
             compliance,
-            recess,
-            places.pressures,
-            0,
+            np.zeros((of.bodies, points)),
+            raised,
             of.mate_radius,
             of.face_width,
             places.seats,

@@ -30,22 +30,31 @@ SEAT_X, SEAT_Y, NEAREST, HALF_WIDTH, FIRST, LAST, DRAG_X, DRAG_Y = range(8)
 LOAD_X, LOAD_Y, PLACE, SLIP, SPEED, BEFORE, AFTER, OWN_YIELD, DRIFT_X, DRIFT_Y = range(8, 18)
 SEAT_ROWS = 18
 
-# rows of the table of work, a column for every roller
+# rows of the table of work, a column for every roller: what pulls on it, the stiffness against that and
+# that of the link to the next one; the same where the last step began; then its factors, step, places and
+# cells
 _RIGHT_X, _RIGHT_Y, _XX, _XY, _YY, _LXX, _LXY, _LYX, _LYY = range(9)
-_IXX, _IXY, _IYY, _DOWN_X, _DOWN_Y, _STEP_X, _STEP_Y = range(9, 16)
-_TRIAL_X, _TRIAL_Y, _FROM_X, _FROM_Y, _SEEN_X, _SEEN_Y, _LOW, _HIGH, _PRESSED = range(16, 25)
-_LOAD_X, _LOAD_Y = 25, 26
-SEAT_WORK_ROWS = 27
+_BALANCE = 9
+_IXX, _IXY, _IYY, _DOWN_X, _DOWN_Y, _STEP_X, _STEP_Y = range(2 * _BALANCE, 2 * _BALANCE + 7)
+_TRIAL_X, _TRIAL_Y, _FROM_X, _FROM_Y, _SEEN_X, _SEEN_Y, _LOW, _HIGH, _PRESSED, _LOAD_X, _LOAD_Y = range(
+    25, 36
+)
+SEAT_WORK_ROWS = 36
 
-# rows of the table of cells: force of each, and its direction
-_FORCE, _ACROSS, _UP = 0, 1, 2
-CELL_ROWS = 3
+# rows of the table of cells: what a foundation answers, cells that a roller may press, directions, how far
+# cells are beyond its reach; then, at its trial place, the pressures of every roller,
+# and behind them the parts of the cells that press
+_ANSWER, _SEEN, _PULLS, _BEYOND = 0, 1, 2, 3
+CELL_ROWS = 4
 
 # what a foundation answers: force per width, stiffness, energy, width that presses
 _PUSH_X, _PUSH_Y, _STIFF_XX, _STIFF_XY, _STIFF_YY, _STORED, _PRESSING = range(7)
 
 # cells that a roller may press: the first, the one after the last, the nearest
 _FIRST_SEEN, _PAST_SEEN, _NEAREST_SEEN = range(3)
+
+# directions: cosine and sine of the pitch angle, pulls of both strands
+_COSINE, _SINE, _TIGHT_X, _TIGHT_Y, _SLACK_X, _SLACK_Y = range(6)
 
 _MARGIN = 0.002
 """Distance within which cells are looked at, in radii of the roller; the first longest step too."""
@@ -56,11 +65,12 @@ _STIFFEST = 1e14
 _ROUNDING = 1e-11
 
 
-@kernel(void(VECTOR, VECTOR, VECTOR, int64, float64, float64, float64, float64, VECTOR, VECTOR))
+@kernel(void(VECTOR, VECTOR, VECTOR, VECTOR, int64, float64, float64, float64, float64, VECTOR, VECTOR))
 def near_cells(
     x: Vector,
     y: Vector,
-    recess: Vector,
+    rest: Vector,
+    raised: Vector,
     reach: int,
     radius: float,
     cx: float,
@@ -72,9 +82,13 @@ def near_cells(
     """Write the first cell and the one after the last that a roller may press, and the nearest one."""
     k = int(nearest)
     low, high = max(0, k - reach), min(x.size, k + reach + 1)
-    wide = (1.0 + _MARGIN) * radius
+    other = k + 1 if k + 1 < x.size else k - 1
+    spacing_x, spacing_y = x[other] - x[k], y[other] - y[k]
+    # A roller that presses between two nodes is this far from both of them.
+    between = 0.5 * (spacing_x * spacing_x + spacing_y * spacing_y) / radius
+    wide = (1.0 + _MARGIN) * radius + between
     for j in range(low, high):
-        dx, dy, within = cx - x[j], cy - y[j], wide + recess[j]
+        dx, dy, within = cx - x[j], cy - y[j], wide + rest[j] + raised[j]
         beyond[j] = dx * dx + dy * dy - within * within
     first, last = low, high
     while first < high and beyond[first] >= 0.0:
@@ -88,6 +102,9 @@ def near_cells(
         distance = dx * dx + dy * dy
         if distance < best:
             best, k = distance, j
+    if last > first:
+        # A cell may press with a part of its width where its middle does not.
+        first, last = max(first - 1, 0), min(last + 1, x.size)
     found[_FIRST_SEEN], found[_PAST_SEEN] = first, last if last > first else low
     found[_NEAREST_SEEN] = k
 
@@ -99,14 +116,14 @@ def near_cells(
         VECTOR,
         VECTOR,
         VECTOR,
+        VECTOR,
         int64,
         int64,
         float64,
         float64,
         float64,
         VECTOR,
-        int64,
-        TABLE,
+        VECTOR,
         VECTOR,
     )
 )
@@ -115,56 +132,94 @@ def foundation_force(
     y: Vector,
     width: Vector,
     compliance: Vector,
-    recess: Vector,
+    rest: Vector,
+    raised: Vector,
     first: int,
     last: int,
     radius: float,
     cx: float,
     cy: float,
-    held: Vector,
-    holds: int,
-    cells: Vector,
-    out: Vector,
+    pressure: Vector,
+    part: Vector,
+    answer: Vector,
 ) -> None:
-    """Write force per width on a roller, its stiffness, energy and the width that presses.
+    """Write force per width on a roller, its stiffness, energy and the width that presses; and pressures.
 
-    A cell presses along the line to the roller's centre with (overlap + recess)/compliance.
-    ``holds`` 1: the cells that have a pressure in ``held`` press or pull, no others; 0: what presses is
-    written there.
+    A cell presses along the line to the roller's centre with (overlap + rest + raised)/compliance. Within
+    a cell, overlap and rest are the parabola through those of its own middle and of its neighbours',
+    ``raised`` is of the cell as a whole, and their sum counts only where it is positive: so force and
+    stiffness are smooth in the place of the roller, however few cells it presses. ``pressure`` takes the mean
+    over each cell, ``part`` how much of it presses.
 
     Equation physics.md (W15).
     """
-    if holds == 1:
-        for j in range(first, last):
-            dx, dy = cx - x[j], cy - y[j]
-            distance = math.sqrt(dx * dx + dy * dy)
-            over = radius - distance + recess[j]
-            cells[_FORCE, j] = over / compliance[j] * width[j] if held[j] > 0.0 else 0.0
-            cells[_ACROSS, j], cells[_UP, j] = dx / distance, dy / distance
-    else:
-        for j in range(first, last):
-            dx, dy = cx - x[j], cy - y[j]
-            distance = math.sqrt(dx * dx + dy * dy)
-            cells[_FORCE, j] = max(radius - distance + recess[j], 0.0) / compliance[j] * width[j]
-            cells[_ACROSS, j], cells[_UP, j] = dx / distance, dy / distance
-        for j in range(first, last):
-            held[j] = cells[_FORCE, j]
     fx, fy, xx, xy, yy, stored, pressed = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(first, last):
-        force = cells[_FORCE, j]
-        if force != 0.0:
-            stiffness, turning = width[j] / compliance[j], force / radius
-            nx, ny = cells[_ACROSS, j], cells[_UP, j]
-            fx += force * nx
-            fy += force * ny
-            xx += stiffness * nx * nx - turning * ny * ny
-            xy += (stiffness + turning) * nx * ny
-            yy += stiffness * ny * ny - turning * nx * nx
-            stored += 0.5 * force * force / stiffness
-            pressed += width[j]
-    out[_PUSH_X], out[_PUSH_Y] = fx, fy
-    out[_STIFF_XX], out[_STIFF_XY], out[_STIFF_YY] = xx, xy, yy
-    out[_STORED], out[_PRESSING] = stored, pressed
+        pressure[j], part[j] = 0.0, 0.0
+    end_cell = x.size - 1
+    over_before, x_before, y_before, over, nx, ny = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for j in range(first - 1, last + 1 if last > first else 0):
+        # The outline goes on straight beyond its end cells.
+        k = min(max(j, 0), end_cell)
+        m = 2 * k - j
+        dx, dy = cx - (2.0 * x[k] - x[m]), cy - (2.0 * y[k] - y[m])
+        distance = math.sqrt(dx * dx + dy * dy)
+        over_after, x_after, y_after = (
+            radius - distance + 2.0 * rest[k] - rest[m],
+            dx / distance,
+            dy / distance,
+        )
+        if j > first:
+            # over + rise t + bend t^2/2 for t from -1/2 to 1/2, about the middle of cell j - 1
+            rise, bend = 0.5 * (over_after - over_before), over_after - 2.0 * over + over_before
+            top = over + raised[j - 1]
+            left, right = top - 0.5 * rise + 0.125 * bend, top + 0.5 * rise + 0.125 * bend
+            discriminant = rise * rise - 2.0 * bend * top
+            turns = abs(rise) < 0.5 * abs(bend) and discriminant > 0.0
+            if left > 0.0 or right > 0.0 or (turns and bend < 0.0):
+                # integrals of 1, t, t^2, t^3, t^4 over what presses
+                p0, p1, p2, p3, p4 = 1.0, 0.0, 1.0 / 12.0, 0.0, 1.0 / 80.0
+                if left <= 0.0 or right <= 0.0 or (turns and bend > 0.0):
+                    bend = bend if bend != 0.0 else 1e-30
+                    root = math.sqrt(max(discriminant, 0.0))
+                    far = -rise - root if rise > 0.0 else root - rise
+                    one, two = far / bend, 2.0 * top / far
+                    least, most = min(one, two), max(one, two)
+                    # A valley leaves two parts of the cell, a hill one.
+                    low, high = (max(-0.5, least), min(0.5, most)) if bend < 0.0 else (-0.5, min(0.5, least))
+                    p0, p1, p2, p3, p4 = 0.0, 0.0, 0.0, 0.0, 0.0
+                    for _ in range(2):
+                        if high > low:
+                            low_2, high_2 = low * low, high * high
+                            p0 += high - low
+                            p1 += (high_2 - low_2) / 2.0
+                            p2 += (high_2 * high - low_2 * low) / 3.0
+                            p3 += (high_2 * high_2 - low_2 * low_2) / 4.0
+                            p4 += (high_2 * high_2 * high - low_2 * low_2 * low) / 5.0
+                        low, high = (max(-0.5, most), 0.5) if bend > 0.0 else (0.0, 0.0)
+                # integrals of the overlap, and of that times t and t^2
+                i0 = top * p0 + rise * p1 + 0.5 * bend * p2
+                i1 = top * p1 + rise * p2 + 0.5 * bend * p3
+                i2 = top * p2 + rise * p3 + 0.5 * bend * p4
+                softness = 1.0 / compliance[j - 1]
+                stiffness = width[j - 1] * softness
+                # The direction turns along the cell by m t + q t^2/2.
+                mx, my = 0.5 * (x_after - x_before), 0.5 * (y_after - y_before)
+                qx, qy = x_after - 2.0 * nx + x_before, y_after - 2.0 * ny + y_before
+                turning = stiffness * i0 / radius
+                fx += stiffness * (i0 * nx + i1 * mx + 0.5 * i2 * qx)
+                fy += stiffness * (i0 * ny + i1 * my + 0.5 * i2 * qy)
+                xx += stiffness * (p0 * nx * nx + 2.0 * p1 * nx * mx + p2 * mx * mx) - turning * ny * ny
+                xy += stiffness * (p0 * nx * ny + p1 * (nx * my + ny * mx) + p2 * mx * my) + turning * nx * ny
+                yy += stiffness * (p0 * ny * ny + 2.0 * p1 * ny * my + p2 * my * my) - turning * nx * nx
+                stored += 0.5 * stiffness * (top * i0 + rise * i1 + 0.5 * bend * i2)
+                pressed += p0 * width[j - 1]
+                pressure[j - 1], part[j - 1] = i0 * softness, p0
+        over_before, x_before, y_before = over, nx, ny
+        over, nx, ny = over_after, x_after, y_after
+    answer[_PUSH_X], answer[_PUSH_Y] = fx, fy
+    answer[_STIFF_XX], answer[_STIFF_XY], answer[_STIFF_YY] = xx, xy, yy
+    answer[_STORED], answer[_PRESSING] = stored, pressed
 
 
 @kernel(
@@ -173,15 +228,12 @@ def foundation_force(
         int64,
         int64,
         VECTOR,
-        float64,
-        float64,
         TABLE,
         TABLE,
         TABLE,
         TABLE,
         TABLE,
         TABLE,
-        int64,
         float64,
         float64,
         TABLE,
@@ -194,15 +246,12 @@ def wrap_balance(
     rollers: int,
     kind: int,
     constants: Vector,
-    tight_angle: float,
-    slack_angle: float,
     x: Vector,
     y: Vector,
     width: Vector,
     compliance: Vector,
-    recess: Vector,
-    held: Vector,
-    holds: int,
+    rest: Vector,
+    raised: Vector,
     radius: float,
     face_width: float,
     seats: Vector,
@@ -217,7 +266,7 @@ def wrap_balance(
     Equation physics.md (W3).
     """
     bodies, spring = x.shape[0], constants[STIFFNESS]
-    out = cells[CELL_ROWS]
+    answer, pulls = cells[_ANSWER], cells[_PULLS]
     energy: float = 0.0
     for i in range(rollers):
         body = (i + kind) % bodies
@@ -226,47 +275,40 @@ def wrap_balance(
             y[body],
             width[body],
             compliance[i],
-            recess[i],
+            rest[body],
+            raised[i],
             int(work[_LOW, i]),
             int(work[_HIGH, i]),
             radius,
             work[_TRIAL_X, i],
             work[_TRIAL_Y, i],
-            held[i],
-            holds,
-            cells,
-            out,
+            cells[CELL_ROWS + i],
+            cells[CELL_ROWS + rollers + i],
+            answer,
         )
-        work[_LOAD_X, i], work[_LOAD_Y, i] = out[_PUSH_X], out[_PUSH_Y]
+        work[_LOAD_X, i], work[_LOAD_Y, i] = answer[_PUSH_X], answer[_PUSH_Y]
         drag_x, drag_y = seats[DRAG_X, event + i], seats[DRAG_Y, event + i]
-        work[_RIGHT_X, i] = face_width * out[_PUSH_X] + drag_x
-        work[_RIGHT_Y, i] = face_width * out[_PUSH_Y] + drag_y
+        work[_RIGHT_X, i] = face_width * answer[_PUSH_X] + drag_x
+        work[_RIGHT_Y, i] = face_width * answer[_PUSH_Y] + drag_y
         work[_XX, i], work[_XY, i], work[_YY, i] = (
-            face_width * out[_STIFF_XX],
-            face_width * out[_STIFF_XY],
-            face_width * out[_STIFF_YY],
+            face_width * answer[_STIFF_XX],
+            face_width * answer[_STIFF_XY],
+            face_width * answer[_STIFF_YY],
         )
-        work[_PRESSED, i] = out[_PRESSING]
-        energy += face_width * out[_STORED]
+        work[_PRESSED, i] = answer[_PRESSING]
+        energy += face_width * answer[_STORED]
         energy -= drag_x * (work[_TRIAL_X, i] - work[_FROM_X, i]) + drag_y * (
             work[_TRIAL_Y, i] - work[_FROM_Y, i]
         )
-    last, turn = rollers - 1, constants[PITCH_ANGLE]
-    pull_x, pull_y = -math.cos(tight_angle), -math.sin(tight_angle)
-    pull_x, pull_y = constants[TIGHT_TENSION] * pull_x, constants[TIGHT_TENSION] * pull_y
-    work[_RIGHT_X, 0] += pull_x
-    work[_RIGHT_Y, 0] += pull_y
-    energy -= pull_x * (work[_TRIAL_X, 0] - work[_FROM_X, 0]) + pull_y * (
-        work[_TRIAL_Y, 0] - work[_FROM_Y, 0]
-    )
-    # The slack strand goes off at slack_angle below the tangent of the last gap's own frame.
-    pull_x = constants[SLACK_TENSION] * math.cos(slack_angle)
-    pull_y = -constants[SLACK_TENSION] * math.sin(slack_angle)
-    work[_RIGHT_X, last] += pull_x
-    work[_RIGHT_Y, last] += pull_y
-    energy -= pull_x * (work[_TRIAL_X, last] - work[_FROM_X, last])
-    energy -= pull_y * (work[_TRIAL_Y, last] - work[_FROM_Y, last])
-    c, s = math.cos(turn), math.sin(turn)
+    last, c, s = rollers - 1, pulls[_COSINE], pulls[_SINE]
+    work[_RIGHT_X, 0] += pulls[_TIGHT_X]
+    work[_RIGHT_Y, 0] += pulls[_TIGHT_Y]
+    energy -= pulls[_TIGHT_X] * (work[_TRIAL_X, 0] - work[_FROM_X, 0])
+    energy -= pulls[_TIGHT_Y] * (work[_TRIAL_Y, 0] - work[_FROM_Y, 0])
+    work[_RIGHT_X, last] += pulls[_SLACK_X]
+    work[_RIGHT_Y, last] += pulls[_SLACK_Y]
+    energy -= pulls[_SLACK_X] * (work[_TRIAL_X, last] - work[_FROM_X, last])
+    energy -= pulls[_SLACK_Y] * (work[_TRIAL_Y, last] - work[_FROM_Y, last])
     for i in range(rollers - 1):
         natural = constants[PITCH_EVEN] if (i + kind) % 2 == 0 else constants[PITCH_ODD]
         ex = c * work[_TRIAL_X, i + 1] + s * work[_TRIAL_Y, i + 1] - work[_TRIAL_X, i]
@@ -337,36 +379,52 @@ def largest_of(rollers: int, row: int, work: Vector) -> float:
     return found
 
 
-@kernel(void(int64, int64, int64, TABLE, TABLE, TABLE, int64, float64, TABLE, TABLE, TABLE))
+@kernel(void(int64, int64, int64, TABLE, TABLE, TABLE, TABLE, int64, float64, TABLE, TABLE, TABLE))
 def look_around(
     event: int,
     i: int,
     body: int,
     x: Vector,
     y: Vector,
-    recess: Vector,
+    rest: Vector,
+    raised: Vector,
     reach: int,
     radius: float,
     seats: Vector,
     work: Vector,
     cells: Vector,
 ) -> None:
-    """Find the cells that a roller may press from its trial place."""
-    found = cells[CELL_ROWS + 1]
+    """Find the cells that a roller may press from its trial place, and from any within the margin."""
+    found = cells[_SEEN]
     near_cells(
         x[body],
         y[body],
-        recess[i],
+        rest[body],
+        raised[i],
         reach,
         radius,
         work[_TRIAL_X, i],
         work[_TRIAL_Y, i],
         seats[NEAREST, event + i],
-        cells[_FORCE],
+        cells[_BEYOND],
         found,
     )
     seats[NEAREST, event + i] = found[_NEAREST_SEEN]
+    work[_LOW, i], work[_HIGH, i] = found[_FIRST_SEEN], found[_PAST_SEEN]
     work[_SEEN_X, i], work[_SEEN_Y, i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
+
+
+@kernel(void(VECTOR, float64, float64, VECTOR))
+def point_pulls(constants: Vector, tight_angle: float, slack_angle: float, pulls: Vector) -> None:
+    """Write the direction of the next gap's frame, and what both strands pull.
+
+    The slack strand goes off at ``slack_angle`` below the tangent of the last gap's own frame.
+    """
+    pulls[_COSINE], pulls[_SINE] = math.cos(constants[PITCH_ANGLE]), math.sin(constants[PITCH_ANGLE])
+    pulls[_TIGHT_X] = -constants[TIGHT_TENSION] * math.cos(tight_angle)
+    pulls[_TIGHT_Y] = -constants[TIGHT_TENSION] * math.sin(tight_angle)
+    pulls[_SLACK_X] = constants[SLACK_TENSION] * math.cos(slack_angle)
+    pulls[_SLACK_Y] = -constants[SLACK_TENSION] * math.sin(slack_angle)
 
 
 @kernel(
@@ -375,15 +433,12 @@ def look_around(
         int64,
         int64,
         VECTOR,
-        float64,
-        float64,
         TABLE,
         TABLE,
         TABLE,
         TABLE,
         TABLE,
         TABLE,
-        int64,
         int64,
         float64,
         float64,
@@ -398,15 +453,12 @@ def balance_rollers(
     rollers: int,
     kind: int,
     constants: Vector,
-    tight_angle: float,
-    slack_angle: float,
     x: Vector,
     y: Vector,
     width: Vector,
     compliance: Vector,
-    recess: Vector,
-    pressures: Vector,
-    holds: int,
+    rest: Vector,
+    raised: Vector,
     reach: int,
     radius: float,
     face_width: float,
@@ -417,63 +469,24 @@ def balance_rollers(
 ) -> int:
     """Bring the rollers of one phase into balance, by Newton steps of limited length; the energy falls.
 
-    The seats from column ``event`` on hold where to start and take the answer. ``holds`` 1: the cells
-    that pressed last are held in the first step, so that a roller which the tooth has receded
-    from comes back to it at once.
+    The seats from column ``event`` on hold where to start and take the answer.
     """
-    found, tried = cells[CELL_ROWS + 1], cells[CELL_ROWS + 2 :]
-    bodies, longest, came_upon = x.shape[0], _MARGIN * radius, 0
+    bodies, longest = x.shape[0], _MARGIN * radius
     for i in range(rollers):
         work[_TRIAL_X, i], work[_TRIAL_Y, i] = seats[SEAT_X, event + i], seats[SEAT_Y, event + i]
         work[_FROM_X, i], work[_FROM_Y, i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
-        look_around(event, i, (i + kind) % bodies, x, y, recess, reach, radius, seats, work, cells)
-        work[_LOW, i], work[_HIGH, i] = found[_FIRST_SEEN], found[_PAST_SEEN]
-        if holds == 1 and seats[LAST, event + i] > seats[FIRST, event + i]:
-            work[_LOW, i] = min(found[_FIRST_SEEN], seats[FIRST, event + i])
-            work[_HIGH, i] = max(found[_PAST_SEEN], seats[LAST, event + i])
-    if holds == 1:
-        wrap_balance(
-            event,
-            rollers,
-            kind,
-            constants,
-            tight_angle,
-            slack_angle,
-            x,
-            y,
-            width,
-            compliance,
-            recess,
-            pressures[event : event + rollers],
-            1,
-            radius,
-            face_width,
-            seats,
-            work,
-            cells,
-        )
-        if wrap_step(rollers, 0.0, work) == 0 and largest_of(rollers, _STEP_X, work) < 10.0 * longest:
-            for i in range(rollers):
-                work[_TRIAL_X, i] += work[_STEP_X, i]
-                work[_TRIAL_Y, i] += work[_STEP_Y, i]
-                look_around(event, i, (i + kind) % bodies, x, y, recess, reach, radius, seats, work, cells)
-                work[_LOW, i], work[_HIGH, i] = found[_FIRST_SEEN], found[_PAST_SEEN]
-    for i in range(rollers):
-        seats[SEAT_X, event + i], seats[SEAT_Y, event + i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
+        look_around(event, i, (i + kind) % bodies, x, y, rest, raised, reach, radius, seats, work, cells)
     energy = wrap_balance(
         event,
         rollers,
         kind,
         constants,
-        tight_angle,
-        slack_angle,
         x,
         y,
         width,
         compliance,
-        recess,
-        tried,
-        0,
+        rest,
+        raised,
         radius,
         face_width,
         seats,
@@ -493,37 +506,32 @@ def balance_rollers(
                 return STALLED
         whole = largest_of(rollers, _STEP_X, work)
         step = min(whole, longest)
-        if step < whole:
-            for i in range(rollers):
-                work[_STEP_X, i] *= step / whole
-                work[_STEP_Y, i] *= step / whole
         slope = 0.0
         for i in range(rollers):
-            body = (i + kind) % bodies
+            if step < whole:
+                work[_STEP_X, i] *= step / whole
+                work[_STEP_Y, i] *= step / whole
             slope -= work[_STEP_X, i] * work[_RIGHT_X, i] + work[_STEP_Y, i] * work[_RIGHT_Y, i]
             work[_TRIAL_X, i] = seats[SEAT_X, event + i] + work[_STEP_X, i]
             work[_TRIAL_Y, i] = seats[SEAT_Y, event + i] + work[_STEP_Y, i]
             away_x, away_y = work[_TRIAL_X, i] - work[_SEEN_X, i], work[_TRIAL_Y, i] - work[_SEEN_Y, i]
             if away_x * away_x + away_y * away_y > _MARGIN * _MARGIN * radius * radius:
-                low, high = work[_LOW, i], work[_HIGH, i]
-                look_around(event, i, body, x, y, recess, reach, radius, seats, work, cells)
-                if found[_PAST_SEEN] > found[_FIRST_SEEN]:
-                    work[_LOW, i] = min(low, found[_FIRST_SEEN]) if high > low else found[_FIRST_SEEN]
-                    work[_HIGH, i] = max(high, found[_PAST_SEEN]) if high > low else found[_PAST_SEEN]
+                look_around(
+                    event, i, (i + kind) % bodies, x, y, rest, raised, reach, radius, seats, work, cells
+                )
+            for row in range(_BALANCE):
+                work[_BALANCE + row, i] = work[row, i]
         after = wrap_balance(
             event,
             rollers,
             kind,
             constants,
-            tight_angle,
-            slack_angle,
             x,
             y,
             width,
             compliance,
-            recess,
-            tried,
-            0,
+            rest,
+            raised,
             radius,
             face_width,
             seats,
@@ -532,41 +540,19 @@ def balance_rollers(
         )
         left = largest_of(rollers, _RIGHT_X, work)
         level = abs(after - energy) <= _ROUNDING * abs(energy) + rounding
-        falls = after < energy if came_upon == 1 else after <= energy + 1e-4 * slope
-        if falls or (level and left < error):
-            gain = 1.0 if level or came_upon == 1 else (after - energy) / slope
-            came_upon = 0
+        if after <= energy + 1e-4 * slope or (level and left < error):
+            gain = 1.0 if level else (after - energy) / slope
             longest *= 3.0 if gain > 0.75 else (0.5 if gain < 0.25 else 1.0)
             for i in range(rollers):
                 seats[SEAT_X, event + i], seats[SEAT_Y, event + i] = work[_TRIAL_X, i], work[_TRIAL_Y, i]
             energy, error = after, left
         else:
-            # The cells that the step came upon press or pull in the next one.
-            longest, came_upon = 0.25 * step, 1
+            longest = 0.25 * step
             if longest < 1e-13 * radius:
                 return STALLED
             for i in range(rollers):
-                work[_TRIAL_X, i], work[_TRIAL_Y, i] = seats[SEAT_X, event + i], seats[SEAT_Y, event + i]
-            wrap_balance(
-                event,
-                rollers,
-                kind,
-                constants,
-                tight_angle,
-                slack_angle,
-                x,
-                y,
-                width,
-                compliance,
-                recess,
-                tried,
-                1,
-                radius,
-                face_width,
-                seats,
-                work,
-                cells,
-            )
+                for row in range(_BALANCE):
+                    work[row, i] = work[_BALANCE + row, i]
     return STALLED
 
 
@@ -585,7 +571,7 @@ def balance_rollers(
         TABLE,
         TABLE,
         TABLE,
-        int64,
+        TABLE,
         int64,
         float64,
         float64,
@@ -607,9 +593,9 @@ def seat_rollers(
     y: Vector,
     width: Vector,
     compliance: Vector,
-    recess: Vector,
+    rest: Vector,
+    raised: Vector,
     pressures: Vector,
-    holds: int,
     reach: int,
     radius: float,
     face_width: float,
@@ -621,24 +607,23 @@ def seat_rollers(
     """Find where the rollers of one phase rest, friction included, and write how they press.
 
     Friction is a fraction of the force across it and acts towards the last cell where it is positive;
-    it is renewed until it agrees with the force. ``pressures`` has a row for every column of ``seats``.
+    it is renewed until it agrees with the force. ``pressures`` has a row for every column of
+    ``seats``, the mean over each cell, and behind them as many of the part of each cell that presses.
     """
-    status, bodies = STALLED, x.shape[0]
+    status = STALLED
+    point_pulls(constants, tight_angle, slack_angle, cells[_PULLS])
     for _ in range(_MAX_DRAGS):
         status = balance_rollers(
             event,
             rollers,
             kind,
             constants,
-            tight_angle,
-            slack_angle,
             x,
             y,
             width,
             compliance,
-            recess,
-            pressures,
-            holds,
+            rest,
+            raised,
             reach,
             radius,
             face_width,
@@ -647,7 +632,7 @@ def seat_rollers(
             work,
             cells,
         )
-        change, holds = 0.0, 0
+        change = 0.0
         for i in range(rollers):
             load_x, load_y = work[_LOAD_X, i], work[_LOAD_Y, i]
             seats[LOAD_X, event + i], seats[LOAD_Y, event + i] = load_x, load_y
@@ -659,17 +644,15 @@ def seat_rollers(
         if status != SEATED or friction == 0.0 or change <= 10.0 * tolerance:
             break
     for i in range(rollers):
-        body = (i + kind) % bodies
         for j in range(int(seats[FIRST, event + i]), int(seats[LAST, event + i])):
-            pressures[event + i, j] = 0.0
+            pressures[event + i, j], pressures[seats.shape[1] + event + i, j] = 0.0, 0.0
         first, last = int(work[_LOW, i]), int(work[_HIGH, i])
         moment, whole = 0.0, 0.0
+        pressure, part = cells[CELL_ROWS + i], cells[CELL_ROWS + rollers + i]
         for j in range(first, last):
-            dx, dy = seats[SEAT_X, event + i] - x[body, j], seats[SEAT_Y, event + i] - y[body, j]
-            over = max(radius - math.sqrt(dx * dx + dy * dy) + recess[i, j], 0.0)
-            pressures[event + i, j] = over / compliance[i, j]
-            whole += pressures[event + i, j]
-            moment += pressures[event + i, j] * j
+            pressures[event + i, j], pressures[seats.shape[1] + event + i, j] = pressure[j], part[j]
+            whole += pressure[j]
+            moment += pressure[j] * j
         seats[FIRST, event + i], seats[LAST, event + i] = first, max(first, last)
         seats[HALF_WIDTH, event + i] = 0.5 * work[_PRESSED, i]
         seats[PLACE, event + i] = moment / whole if whole > 0.0 else -1.0

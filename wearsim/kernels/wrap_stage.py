@@ -86,7 +86,7 @@ _FREE_PASSES = 2
 """Passes that take the new pressures alone; later ones take the mean of old and new, or they would swing."""
 
 # rows of the table of sums: those of `spread`, the work of every body before a pass, and the pressures of
-# the rollers of a phase before they are seated
+# the rollers of a phase, and the parts of cells that press, before they are seated
 _FIRST_SUM, _SECOND_SUM, _MASSES, _BORDERS, WORK_BEFORE = range(5)
 
 
@@ -188,9 +188,11 @@ def add_work(
         if not worn > 0.0:
             continue
         width, pressure = outlines[OUTLINE_WIDTH * bodies + body], pressures[event]
+        part = pressures[seats.shape[1] + event]
         for j in range(first, last):
             p = pressure[j]
-            masses[j] = sign * worn * (p if exponent == 1.0 else p**exponent) * width[j] if p > 0.0 else 0.0
+            rubs = p if exponent == 1.0 or not p > 0.0 else part[j] * (p / part[j]) ** exponent
+            masses[j] = sign * worn * rubs * width[j] if p > 0.0 else 0.0
         spread(first, last, seats[BEFORE, event], seats[AFTER, event], unworn, works[body], sums)
 
 
@@ -218,14 +220,16 @@ def add_yields(
         worn = worn_by_unit_pressure(event, events, blocks, seats, numbers)
         if not worn > 0.0:
             continue
-        pressure, before, after = pressures[event], seats[BEFORE, event], seats[AFTER, event]
+        pressure, part = pressures[event], pressures[seats.shape[1] + event]
+        before, after = seats[BEFORE, event], seats[AFTER, event]
         least = 0.0
         if exponent != 1.0:
             for j in range(first, last):
-                least = max(least, 0.05 * pressure[j])
+                least = max(least, 0.05 * pressure[j] / part[j] if part[j] > 0.0 else 0.0)
         for j in range(first, last):
             p = pressure[j]
-            grows = 1.0 if exponent == 1.0 else exponent * max(p, least) ** (exponent - 1.0)
+            local = p / part[j] if part[j] > 0.0 else 0.0
+            grows = 1.0 if exponent == 1.0 else exponent * max(local, least) ** (exponent - 1.0)
             masses[j] = worn * grows * unworn[SPACING, j] if p > 0.0 else 0.0
             own = masses[j] / (unworn[SPACING, j] * (1.0 + before + after))
             seats[OWN_YIELD, event] = max(seats[OWN_YIELD, event], own)
@@ -268,9 +272,10 @@ def take_mean(event: int, rollers: int, before: Vector, seats: Vector, pressures
     """Replace the pressures of a phase by the mean of theirs and those before."""
     n = pressures.shape[1]
     for i in range(rollers):
-        pressure, old = pressures[event + i], before[i]
+        pressure, part = pressures[event + i], pressures[seats.shape[1] + event + i]
         for j in range(n):
-            pressure[j] = 0.5 * (pressure[j] + old[j])
+            pressure[j] = 0.5 * (pressure[j] + before[i, j])
+            part[j] = 0.5 * (part[j] + before[rollers + i, j])
         first, last = 0, n
         while first < n and pressure[first] == 0.0:
             first += 1
@@ -290,10 +295,15 @@ def springs(
 
     Equation physics.md (W15).
     """
+    if place < 0.0:
+        for j in range(low, high):
+            compliance[j] = _WINKLER * half / modulus
+        return
+    edge = _EDGE * half
     for j in range(low, high):
         x = (j - place) * width
-        inside = max(half * half - x * x, _EDGE * _EDGE * half * half)
-        compliance[j] = math.sqrt(inside) / modulus if place >= 0.0 else _WINKLER * half / modulus
+        inside = half * half - x * x
+        compliance[j] = math.sqrt(inside) / modulus if inside > edge * edge else edge / modulus
 
 
 @kernel(void(int64, int64, VECTOR, TABLE, TABLE, float64, int64, float64, TABLE, TABLE))
@@ -400,7 +410,7 @@ def sweep_phases(
     pressures: Vector,
     outlines: Vector,
     compliance: Vector,
-    recess: Vector,
+    raised: Vector,
     work: Vector,
     cells: Vector,
     sums: Vector,
@@ -417,6 +427,7 @@ def sweep_phases(
     x = outlines[OUTLINE_X * bodies : (OUTLINE_X + 1) * bodies]
     y = outlines[OUTLINE_Y * bodies : (OUTLINE_Y + 1) * bodies]
     width = outlines[OUTLINE_WIDTH * bodies : (OUTLINE_WIDTH + 1) * bodies]
+    rest = outlines[REST * bodies : (REST + 1) * bodies]
     before = sums[WORK_BEFORE + bodies :]
     reach = int(numbers[REACH])
     for kind in range(kinds):
@@ -443,14 +454,15 @@ def sweep_phases(
                     high,
                     compliance[i],
                 )
-                fast, rest = outlines[YIELD * bodies + body], outlines[REST * bodies + body]
+                fast = outlines[YIELD * bodies + body]
                 pressure, own = pressures[event + i], seats[OWN_YIELD, event + i]
                 for j in range(low, high):
                     grows = max(fast[j], own)
                     compliance[i, j] += grows
-                    recess[i, j] = grows * pressure[j] + rest[j]
-                for j in range(n):
-                    before[i, j] = pressure[j]
+                    raised[i, j] = grows * pressure[j]
+                part = pressures[seats.shape[1] + event + i]
+                for j in range(n if number >= _FREE_PASSES else 0):
+                    before[i, j], before[rollers + i, j] = pressure[j], part[j]
             add_work(
                 event,
                 end,
@@ -478,9 +490,9 @@ def sweep_phases(
                 y,
                 width,
                 compliance,
-                recess,
+                rest,
+                raised,
                 pressures,
-                1 if seats[LAST, event] > seats[FIRST, event] else 0,
                 reach,
                 numbers[ROLLER_RADIUS],
                 numbers[FACE_WIDTH],
@@ -532,7 +544,7 @@ def implicit_stage(
     pressures: Vector,
     outlines: Vector,
     compliance: Vector,
-    recess: Vector,
+    raised: Vector,
     work: Vector,
     cells: Vector,
     sums: Vector,
@@ -576,7 +588,7 @@ def implicit_stage(
                 pressures,
                 outlines,
                 compliance,
-                recess,
+                raised,
                 work,
                 cells,
                 sums,

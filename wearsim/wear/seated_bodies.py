@@ -26,7 +26,7 @@ _FIRST_SWEPT, _SECOND_SWEPT = (_GAMMA, 1.0 - 2.0 * _GAMMA), (_GAMMA, 0.0)
 _HALVINGS = 10
 """Times that a step is halved whose stages are not found."""
 
-_FARTHEST = 0.005
+_FARTHEST = 0.02
 """Way that a mate is moved ahead at most for a start, in its radii."""
 
 

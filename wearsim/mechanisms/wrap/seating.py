@@ -118,12 +118,13 @@ class WrapSeating(PressedPlaces):
         self.phases = phases_of_pitch(mechanism.wrap_angle, mechanism.pitch_angle, contact.phases)
         events = len(contact.blocks) * self.kinds * contact.phases * most
         self.most, self.seats = most, np.zeros((SEAT_ROWS, events))
-        self.pressures = np.zeros((events, points))
+        # Pressures of all events, and behind them the parts of the cells that press.
+        self.pressed = np.zeros((2 * events, points))
         self.outlines = np.zeros((OUTLINES * contact.bodies, points))
-        self.compliance, self.recess = np.ones((most, points)), np.zeros((most, points))
+        self.compliance, self.raised = np.ones((most, points)), np.zeros((most, points))
         self.work = np.zeros((SEAT_WORK_ROWS, most))
-        self.cells = np.zeros((CELL_ROWS + 2 + most, max(points, 8)))
-        self.sums = np.zeros((WORK_BEFORE + contact.bodies + most, points + 1))
+        self.cells = np.zeros((CELL_ROWS + 2 * most, max(points, 8)))
+        self.sums = np.zeros((WORK_BEFORE + contact.bodies + 2 * most, points + 1))
         self.blocks = np.zeros((len(contact.blocks), BLOCK_ROWS))
         self.numbers = self._numbers(law)
 
@@ -144,17 +145,22 @@ class WrapSeating(PressedPlaces):
         return self.seats[SEAT_X : SEAT_Y + 1]
 
     @property
+    def pressures(self) -> Rows:
+        """Mean pressure of every roller on every cell [MPa], shape (rollers, points)."""
+        return self.pressed[: self.seats.shape[1]]
+
+    @property
     def drift(self) -> Rows:
         """Way of all centres in the step under way [mm], shape (2, rollers); to be set."""
         return self.seats[DRIFT_X : DRIFT_Y + 1]
 
     def kept(self) -> tuple[Rows, Rows]:
         """Return a copy of what a stage starts from."""
-        return self.seats.copy(), self.pressures.copy()
+        return self.seats.copy(), self.pressed.copy()
 
     def restore(self, kept: tuple[Rows, Rows]) -> None:
         """Go back to a copy."""
-        self.seats[:], self.pressures[:] = kept
+        self.seats[:], self.pressed[:] = kept
 
     def _set(self, cycles: float, wear: MateWear) -> None:
         contact, numbers = self.contact, self.numbers
@@ -177,10 +183,10 @@ class WrapSeating(PressedPlaces):
             self.seats,
             self.numbers,
             self.unworn,
-            self.pressures,
+            self.pressed,
             self.outlines,
             self.compliance,
-            self.recess,
+            self.raised,
             self.work,
             self.cells,
             self.sums,
@@ -195,7 +201,7 @@ class WrapSeating(PressedPlaces):
         self.seats[:] = 0.0
         self.seats[PLACE] = -1.0
         self.seats[HALF_WIDTH] = 0.05 * contact.mate_radius
-        self.pressures[:] = 0.0
+        self.pressed[:] = 0.0
         event, most = 0, self.most
         for block in contact.blocks:
             for kind in range(self.kinds):
