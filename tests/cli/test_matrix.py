@@ -9,7 +9,7 @@ pytestmark = pytest.mark.wide
 
 CASES = Path(__file__).parents[2] / "cases"
 COARSE = ("run.life_tolerance=0.1", "run.horizon_hours=20")
-WRAP = ("sprocket.nodes=41", "mechanism.phases=1", *COARSE)
+WRAP = ("sprocket.nodes=61", "mechanism.phases=1", *COARSE)
 
 
 def _of_wheels(count: int) -> tuple[str, ...]:

@@ -93,7 +93,7 @@ def test_a_chain_that_is_not_worn_out_says_so_everywhere(cli, drive, tmp_path):
     [
         ("1e-8", "{critical_depth_mm = 0.1}", "17 teeth, worn by 0.1 mm"),
         ("1e-14", "{critical_depth_mm = 0.1}", "17 teeth, worn by 0.1 mm"),
-        ("1e-14", "{over_pins_change_mm = 1e-4}", "until the measurement over pins is 0.0001 mm less"),
+        ("1e-14", "{over_pins_change_mm = 2e-5}", "until the measurement over pins is 2e-05 mm less"),
     ],
 )
 def test_what_ends_a_sprocket_is_said_alike_before_and_after_a_chain(cli, drive, joint, limits, words):

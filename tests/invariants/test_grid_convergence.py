@@ -2,8 +2,9 @@
 
 Lives of gears, which have some, are in verification/test_gear_pair.py.
 
-Expected: second order in the middle of the flank (three-point curvature); at least first order
-for the area, whose ends and corners of the load share are not smooth.
+Expected: second order in the middle of the flank (three-point curvature), on a wrap 3/2, as there the
+pressure falls off like a root at both ends of a contact; at least first order for the area, whose
+ends and corners of the load share are not smooth.
 """
 
 from collections.abc import Callable
@@ -39,7 +40,8 @@ def test_order_of_convergence(smooth: Callable[..., Mechanism], exponent: float)
         depths.append(worn.depth[-1][nodes // 2])
         areas.append(area_between(worn.x[0], worn.y[0], worn.x[-1], worn.y[-1]))
     coarse, fine = np.abs(np.diff(depths)) / depths[-1]
-    assert fine <= coarse / 2.0**1.9 + 1e-6
+    assert fine <= coarse / 2.0 ** (1.5 if contact.kind is ContactKind.RESTING else 1.9) + 1e-6
     coarse, fine = np.abs(np.diff(areas)) / areas[-1]
-    assert fine <= coarse / (1.5 if contact.kind is ContactKind.RESTING else 2.0)
+    # On a wrap 1e-5 is what the balance of its rollers leaves.
+    assert fine <= (coarse / 1.5 + 1e-5 if contact.kind is ContactKind.RESTING else coarse / 2.0)
     assert fine < 1e-3

@@ -19,6 +19,7 @@ from wearsim.errors import CaseError, ContactError
 from wearsim.lubrication.clock import LubricantClock
 from wearsim.lubrication.law import LubricantLaw
 from wearsim.lubrication.schedule import LubricantSchedule
+from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.report.answer import answer
 from wearsim.result import WearResult
 from wearsim.wear.mate_clock import STEADY, LubricatedClock, MateClock
@@ -341,8 +342,8 @@ def test_part_renewed_later_is_lubricated_once_more() -> None:
 
 
 def test_every_chain_runs_in() -> None:
-    """Chains of one drive live alike."""
-    result = wrap(
+    """Chains of one drive live alike, and each grows by the integral of its own coefficient in every row."""
+    settings = (
         "wear.running_in_factor=5",
         "wear.running_in_distance_mm=100",
         "joint.specific_wear_rate_mm2_per_N=2e-7",
@@ -350,8 +351,18 @@ def test_every_chain_runs_in() -> None:
         "run.horizon_hours=60",
         "run.life_tolerance=0.1",
     )
+    result, case = wrap(*settings), wearsim.load_case(WRAP, settings)
+    assert isinstance(case.drive, WrapDrive)
+    falls_over = 100.0 / case.drive.contact(case).joint_sliding_per_cycle
     cycles, chain = result.history_columns["cycles"], result.history_columns["chain"]
     ends = [cycles[chain == number][-1] for number in (1.0, 2.0, 3.0)]
+
+    def worn(run: Any) -> Any:
+        return run + 4.0 * falls_over * -np.expm1(-run / falls_over)
+
+    age = cycles - np.array([0.0, *ends])[chain.astype(int) - 1]
+    grown = result.history_columns["elongation_percent"]
+    np.testing.assert_allclose(grown, 2.0 * worn(age) / worn(ends[0]), rtol=1e-6, atol=1e-12)
     # The end of a chain is the last row with its number.
     np.testing.assert_allclose(np.diff([0.0, *ends]), result.parts["chain"].cycles, rtol=1e-6)
     assert any("every new chain" in text for text in result.assumptions)

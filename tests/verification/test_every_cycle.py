@@ -19,7 +19,7 @@ GEARS = drives.changed(
 WRAP = {
     "format_version": 1,
     "chain": {"designation": "ANSI 40"},
-    "sprocket": {"teeth": 20, "profile": "ansi_b29", "nodes": 101},
+    "sprocket": {"teeth": 20, "profile": "ansi_b29", "nodes": 151},
     "mechanism": {"kind": "wrap", "phases": 4},
     "drive": {"mate_teeth": 20, "links": 114, "slack_tension_N": 50},
     "load": {"tension_N": 1000, "speed_rpm": 100},

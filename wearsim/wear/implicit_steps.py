@@ -91,7 +91,7 @@ class _Snapshots:
         shortest = min(clock.shortest for clock in clocks if not clock.is_steady)
         count = min(int(whole / (_PART_OF_AGE * max(age, shortest))), SNAPSHOTS // 4)
         for place in range(1, count + 1):
-            self._add(before.on_the_way_to(after, place / (count + 1)))
+            self._add(bodies.on_the_way(before, after, place / (count + 1)))
 
     def add(self, bodies: WornBodies, last: bool = False) -> None:
         self._add(bodies.state(), last)
@@ -332,7 +332,7 @@ def _cut(bodies: WornBodies, before: WornState, fails: Callable[[], bool]) -> No
     after = bodies.state()
 
     def fails_after(part: float) -> bool:
-        bodies.go_back(before.on_the_way_to(after, part))
+        bodies.go_back(bodies.on_the_way(before, after, part))
         return fails()
 
-    bodies.go_back(before.on_the_way_to(after, first_place(fails_after, 0.0, 1.0)))
+    bodies.go_back(bodies.on_the_way(before, after, first_place(fails_after, 0.0, 1.0)))

@@ -199,6 +199,13 @@ class WornBodies:
         worn = self.wear.elongation >= contact.elongation_limit * (1.0 - 1e-9)
         return worn and contact.elongation_per_cycle > 0.0
 
+    def on_the_way(self, before: WornState, after: WornState, part: float) -> WornState:
+        """Return where a part of a step leads, in a straight line; the mate in use grows by its own clock."""
+        state = before.on_the_way_to(after, part)
+        of_mate = self.mate_cycles(state.cycles) - self.mate_cycles(before.cycles)
+        grown = self.contact.mate_after(before.wear, of_mate, 0.0)
+        return replace(state, wear=MateWear(grown.elongation, state.wear.depth))
+
     def renew_mate(self) -> None:
         """Put on a new mate."""
         self.wear, self.mate = NEW_MATE, self.mate + 1
