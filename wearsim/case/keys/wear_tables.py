@@ -18,8 +18,8 @@ else:
     _LawName = Literal[tuple(_KEYS)]
 
 
-class WearTable(Table):
-    """The wear law and its coefficient."""
+class _WearTable(Table):
+    """All of [wear] but the keys of laws that are only above zero."""
 
     law: _LawName = "archard"
     condition: str | None = None
@@ -85,6 +85,29 @@ class WearTable(Table):
         return found
 
 
+def _above_zero(key: str) -> Any:
+    return Positive if quantities()[key].unit else PositiveNumber
+
+
+if TYPE_CHECKING:
+
+    class WearTable(_WearTable):
+        """The wear law and its coefficient."""
+else:
+    WearTable = create_model(
+        "WearTable",
+        __base__=_WearTable,
+        __doc__="The wear law and its coefficient.",
+        __module__=__name__,
+        **{
+            key: (_above_zero(key) | None, None)
+            for keys in _KEYS.values()
+            for key in keys
+            if key not in _WearTable.model_fields
+        },
+    )
+
+
 class MaterialTable(Table):
     """A material of the table by its name, or by its elastic constants."""
 
@@ -125,8 +148,7 @@ Depth = Annotated[Positive, Field(ge=1e-9)]
 
 
 def _limit(row: LimitKey) -> Any:
-    kind = Positive if quantities()[row.key].unit else PositiveNumber
-    return Annotated[kind, Field(ge=row.least, le=row.most)] | None, None
+    return Annotated[_above_zero(row.key), Field(ge=row.least, le=row.most)] | None, None
 
 
 if TYPE_CHECKING:
