@@ -8,6 +8,7 @@ from wearsim.case.model import Case
 from wearsim.contact.engagement import FlankContact, Mechanism
 from wearsim.contact.hertz import peak_pressure
 from wearsim.drive.flank_grids import LEVELS, FlankRun, GridSearch, SettledLife, settle_grid
+from wearsim.drive.history import common_history
 from wearsim.drive.lubricant import late_relubrication
 from wearsim.drive.validity import few_cycles, film_assumptions, validity
 from wearsim.drive.wear_task import WearTask, clock_assumptions, limit_states, new_flank_pressure, wear_task
@@ -147,9 +148,7 @@ def _tables(case: Case, mechanism: Mechanism, run: Trajectory) -> tuple[dict[str
     speed = np.array([touch.sliding_speed for touch in touches])
     pressure = peak_pressure(load, np.maximum(relative, 0.0), contact.modulus)
     history = {
-        "cycles": run.cycles,
-        "time_hours": run.cycles / case.cycles_per_hour,
-        "max_depth_mm": run.depth.max(axis=1),
+        **common_history(case, run),
         "peak_pressure_MPa": pressure.max(axis=1),
         "max_sliding_speed_mm_per_s": speed.max(axis=1),
         "removed_area_mm2": np.array(

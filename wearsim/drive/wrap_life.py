@@ -10,6 +10,7 @@ from wearsim.case.model import Case
 from wearsim.chain.selection import rating_warnings
 from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit
+from wearsim.drive.history import common_history
 from wearsim.drive.lubricant import late_relubrication, with_knees
 from wearsim.drive.wear_task import (
     WearTask,
@@ -312,9 +313,7 @@ def _tables(
     profile, points, path = contact.profile, contact.profile.x.size, contact.mechanism.path
     pressure, speed = highest_load(contact, law, StartState(run.all_depth[0], NEW_MATE, 1))
     history = {
-        "cycles": run.cycles,
-        "time_hours": run.cycles / case.cycles_per_hour,
-        "max_depth_mm": run.all_depth.max(axis=(1, 2)),
+        **common_history(case, run),
         "elongation_percent": 100.0 * run.elongation,
         "roller_wear_mm": run.mate_depth,
         "chain": run.mates,

@@ -72,6 +72,11 @@ class RestingTrajectory(Trajectory):
     area: float  # worn off all bodies by the events [mm2]
     lost: str = ""  # why the run ends before its limit and its horizon, where its mates were not found
 
+    @property
+    def every_depth(self) -> Vector:
+        """Depth of every body that wears [mm], shape (snapshots, bodies, points)."""
+        return self.all_depth
+
 
 class _Snapshots:
     """Snapshots, thinned out as they become too many; ends of mates stay."""

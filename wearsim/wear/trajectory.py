@@ -30,6 +30,11 @@ class Trajectory:
     met: StopLimit | None  # the limit that ended the run at the last of them; None where the horizon did
     updates: int  # evaluations of the wear rate
 
+    @property
+    def every_depth(self) -> Vector:
+        """Depth of every body that wears [mm], shape (snapshots, bodies, points)."""
+        return self.depth[:, None, :]
+
 
 def compared(*runs: Trajectory) -> tuple[bool, list[float]]:
     """Return whether all runs met a limit, and their lives; else their depths where the shortest ends."""
