@@ -74,6 +74,7 @@ def test_springs_press_as_hertz_does():
                 radius,
                 0.0,
                 radius - sink,
+                np.zeros((3, cells + 2)),
                 np.zeros(cells),
                 np.zeros(cells),
                 out,

@@ -16,7 +16,9 @@ def pressed(x, y, radius, centre, raised=0.0):
     width = np.gradient(np.concatenate([[0.0], np.hypot(np.diff(x), np.diff(y)).cumsum()]))
     pressure, part, answer = np.zeros(x.size), np.zeros(x.size), np.zeros(7)
     cells = width, np.full(x.size, COMPLIANCE), np.zeros(x.size), np.zeros(x.size) + raised
-    foundation_force(x, y, *cells, 0, x.size, radius, *centre, pressure, part, answer)
+    foundation_force(
+        x, y, *cells, 0, x.size, radius, *centre, np.zeros((3, x.size + 2)), pressure, part, answer
+    )
     assert part @ width == pytest.approx(answer[6], rel=1e-12)
     stiffness = np.array([[answer[2], answer[3]], [answer[3], answer[4]]])
     return answer[:2], stiffness, answer[5], answer[6], pressure

@@ -42,10 +42,10 @@ _TRIAL_X, _TRIAL_Y, _FROM_X, _FROM_Y, _SEEN_X, _SEEN_Y, _LOW, _HIGH, _PRESSED, _
 SEAT_WORK_ROWS = 36
 
 # rows of the table of cells: what a foundation answers, cells that a roller may press, directions, how far
-# cells are beyond its reach; then, at its trial place, the pressures of every roller,
-# and behind them the parts of the cells that press
-_ANSWER, _SEEN, _PULLS, _BEYOND = 0, 1, 2, 3
-CELL_ROWS = 4
+# cells are beyond its reach, three rows of overlaps; then, at its trial place, the pressures of every
+# roller, and behind them the parts of the cells that press
+_ANSWER, _SEEN, _PULLS, _BEYOND, _NEAR = 0, 1, 2, 3, 4
+CELL_ROWS = 7
 
 # what a foundation answers: force per width, stiffness, energy, width that presses
 _PUSH_X, _PUSH_Y, _STIFF_XX, _STIFF_XY, _STIFF_YY, _STORED, _PRESSING = range(7)
@@ -109,6 +109,41 @@ def near_cells(
     found[_NEAREST_SEEN] = k
 
 
+@kernel(void(VECTOR, VECTOR, VECTOR, int64, int64, float64, float64, float64, VECTOR, VECTOR, VECTOR))
+def overlaps(
+    x: Vector,
+    y: Vector,
+    rest: Vector,
+    first: int,
+    last: int,
+    radius: float,
+    cx: float,
+    cy: float,
+    over: Vector,
+    along_x: Vector,
+    along_y: Vector,
+) -> None:
+    """Write how far a roller reaches into cells and one beside them, and the directions to its centre.
+
+    Column j + 1 is that of cell j; the outline goes on straight beyond its end cells.
+    """
+    for j in range(max(first - 1, 0), min(last + 1, x.size)):
+        dx, dy = cx - x[j], cy - y[j]
+        distance = math.sqrt(dx * dx + dy * dy)
+        over[j + 1], along_x[j + 1], along_y[j + 1] = (
+            radius - distance + rest[j],
+            dx / distance,
+            dy / distance,
+        )
+    for k, m in ((0, 1), (x.size - 1, x.size - 2)):
+        j = 2 * k - m
+        if first - 1 <= j <= last:
+            dx, dy = cx - (2.0 * x[k] - x[m]), cy - (2.0 * y[k] - y[m])
+            distance = math.sqrt(dx * dx + dy * dy)
+            over[j + 1] = radius - distance + 2.0 * rest[k] - rest[m]
+            along_x[j + 1], along_y[j + 1] = dx / distance, dy / distance
+
+
 @kernel(
     void(
         VECTOR,
@@ -122,6 +157,7 @@ def near_cells(
         float64,
         float64,
         float64,
+        TABLE,
         VECTOR,
         VECTOR,
         VECTOR,
@@ -139,6 +175,7 @@ def foundation_force(
     radius: float,
     cx: float,
     cy: float,
+    near: Vector,
     pressure: Vector,
     part: Vector,
     answer: Vector,
@@ -148,75 +185,65 @@ def foundation_force(
     A cell presses along the line to the roller's centre with (overlap + rest + raised)/compliance. Within
     a cell, overlap and rest are the parabola through those of its own middle and of its neighbours',
     ``raised`` is of the cell as a whole, and their sum counts only where it is positive: so force and
-    stiffness are smooth in the place of the roller, however few cells it presses. ``pressure`` takes the mean
-    over each cell, ``part`` how much of it presses.
+    stiffness are smooth in the place of the roller, however few cells it presses. ``near`` takes what
+    `overlaps` writes, ``pressure`` the mean over each cell, ``part`` how much of it presses.
 
     Equation physics.md (W15).
     """
+    over, along_x, along_y = near[0], near[1], near[2]
+    if last > first:
+        overlaps(x, y, rest, first, last, radius, cx, cy, over, along_x, along_y)
     fx, fy, xx, xy, yy, stored, pressed = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(first, last):
         pressure[j], part[j] = 0.0, 0.0
-    end_cell = x.size - 1
-    over_before, x_before, y_before, over, nx, ny = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for j in range(first - 1, last + 1 if last > first else 0):
-        # The outline goes on straight beyond its end cells.
-        k = min(max(j, 0), end_cell)
-        m = 2 * k - j
-        dx, dy = cx - (2.0 * x[k] - x[m]), cy - (2.0 * y[k] - y[m])
-        distance = math.sqrt(dx * dx + dy * dy)
-        over_after, x_after, y_after = (
-            radius - distance + 2.0 * rest[k] - rest[m],
-            dx / distance,
-            dy / distance,
-        )
-        if j > first:
-            # over + rise t + bend t^2/2 for t from -1/2 to 1/2, about the middle of cell j - 1
-            rise, bend = 0.5 * (over_after - over_before), over_after - 2.0 * over + over_before
-            top = over + raised[j - 1]
-            left, right = top - 0.5 * rise + 0.125 * bend, top + 0.5 * rise + 0.125 * bend
-            discriminant = rise * rise - 2.0 * bend * top
-            turns = abs(rise) < 0.5 * abs(bend) and discriminant > 0.0
-            if left > 0.0 or right > 0.0 or (turns and bend < 0.0):
-                # integrals of 1, t, t^2, t^3, t^4 over what presses
-                p0, p1, p2, p3, p4 = 1.0, 0.0, 1.0 / 12.0, 0.0, 1.0 / 80.0
-                if left <= 0.0 or right <= 0.0 or (turns and bend > 0.0):
-                    bend = bend if bend != 0.0 else 1e-30
-                    root = math.sqrt(max(discriminant, 0.0))
-                    far = -rise - root if rise > 0.0 else root - rise
-                    one, two = far / bend, 2.0 * top / far
-                    least, most = min(one, two), max(one, two)
-                    # A valley leaves two parts of the cell, a hill one.
-                    low, high = (max(-0.5, least), min(0.5, most)) if bend < 0.0 else (-0.5, min(0.5, least))
-                    p0, p1, p2, p3, p4 = 0.0, 0.0, 0.0, 0.0, 0.0
-                    for _ in range(2):
-                        if high > low:
-                            low_2, high_2 = low * low, high * high
-                            p0 += high - low
-                            p1 += (high_2 - low_2) / 2.0
-                            p2 += (high_2 * high - low_2 * low) / 3.0
-                            p3 += (high_2 * high_2 - low_2 * low_2) / 4.0
-                            p4 += (high_2 * high_2 * high - low_2 * low_2 * low) / 5.0
-                        low, high = (max(-0.5, most), 0.5) if bend > 0.0 else (0.0, 0.0)
-                # integrals of the overlap, and of that times t and t^2
-                i0 = top * p0 + rise * p1 + 0.5 * bend * p2
-                i1 = top * p1 + rise * p2 + 0.5 * bend * p3
-                i2 = top * p2 + rise * p3 + 0.5 * bend * p4
-                softness = 1.0 / compliance[j - 1]
-                stiffness = width[j - 1] * softness
-                # The direction turns along the cell by m t + q t^2/2.
-                mx, my = 0.5 * (x_after - x_before), 0.5 * (y_after - y_before)
-                qx, qy = x_after - 2.0 * nx + x_before, y_after - 2.0 * ny + y_before
-                turning = stiffness * i0 / radius
-                fx += stiffness * (i0 * nx + i1 * mx + 0.5 * i2 * qx)
-                fy += stiffness * (i0 * ny + i1 * my + 0.5 * i2 * qy)
-                xx += stiffness * (p0 * nx * nx + 2.0 * p1 * nx * mx + p2 * mx * mx) - turning * ny * ny
-                xy += stiffness * (p0 * nx * ny + p1 * (nx * my + ny * mx) + p2 * mx * my) + turning * nx * ny
-                yy += stiffness * (p0 * ny * ny + 2.0 * p1 * ny * my + p2 * my * my) - turning * nx * nx
-                stored += 0.5 * stiffness * (top * i0 + rise * i1 + 0.5 * bend * i2)
-                pressed += p0 * width[j - 1]
-                pressure[j - 1], part[j - 1] = i0 * softness, p0
-        over_before, x_before, y_before = over, nx, ny
-        over, nx, ny = over_after, x_after, y_after
+    for j in range(first, last):
+        over_before, top, over_after = over[j], over[j + 1] + raised[j], over[j + 2]
+        # top + rise t + bend t^2/2 for t from -1/2 to 1/2, about the middle of the cell
+        rise, bend = 0.5 * (over_after - over_before), over_after - 2.0 * over[j + 1] + over_before
+        left, right = top - 0.5 * rise + 0.125 * bend, top + 0.5 * rise + 0.125 * bend
+        discriminant = rise * rise - 2.0 * bend * top
+        turns = abs(rise) < 0.5 * abs(bend) and discriminant > 0.0
+        if left <= 0.0 and right <= 0.0 and not (turns and bend < 0.0):
+            continue
+        # integrals of 1, t, t^2, t^3, t^4 over what presses
+        p0, p1, p2, p3, p4 = 1.0, 0.0, 1.0 / 12.0, 0.0, 1.0 / 80.0
+        if left <= 0.0 or right <= 0.0 or (turns and bend > 0.0):
+            bend = bend if bend != 0.0 else 1e-30
+            root = math.sqrt(max(discriminant, 0.0))
+            far = -rise - root if rise > 0.0 else root - rise
+            one, two = far / bend, 2.0 * top / far
+            least, most = min(one, two), max(one, two)
+            # A valley leaves two parts of the cell, a hill one.
+            low, high = (max(-0.5, least), min(0.5, most)) if bend < 0.0 else (-0.5, min(0.5, least))
+            p0, p1, p2, p3, p4 = 0.0, 0.0, 0.0, 0.0, 0.0
+            for _ in range(2):
+                if high > low:
+                    low_2, high_2 = low * low, high * high
+                    p0 += high - low
+                    p1 += (high_2 - low_2) / 2.0
+                    p2 += (high_2 * high - low_2 * low) / 3.0
+                    p3 += (high_2 * high_2 - low_2 * low_2) / 4.0
+                    p4 += (high_2 * high_2 * high - low_2 * low_2 * low) / 5.0
+                low, high = (max(-0.5, most), 0.5) if bend > 0.0 else (0.0, 0.0)
+        # integrals of the overlap, and of that times t and t^2
+        i0 = top * p0 + rise * p1 + 0.5 * bend * p2
+        i1 = top * p1 + rise * p2 + 0.5 * bend * p3
+        i2 = top * p2 + rise * p3 + 0.5 * bend * p4
+        softness = 1.0 / compliance[j]
+        stiffness = width[j] * softness
+        # The direction turns along the cell by m t + q t^2/2.
+        nx, ny = along_x[j + 1], along_y[j + 1]
+        mx, my = 0.5 * (along_x[j + 2] - along_x[j]), 0.5 * (along_y[j + 2] - along_y[j])
+        qx, qy = along_x[j + 2] - 2.0 * nx + along_x[j], along_y[j + 2] - 2.0 * ny + along_y[j]
+        turning = stiffness * i0 / radius
+        fx += stiffness * (i0 * nx + i1 * mx + 0.5 * i2 * qx)
+        fy += stiffness * (i0 * ny + i1 * my + 0.5 * i2 * qy)
+        xx += stiffness * (p0 * nx * nx + 2.0 * p1 * nx * mx + p2 * mx * mx) - turning * ny * ny
+        xy += stiffness * (p0 * nx * ny + p1 * (nx * my + ny * mx) + p2 * mx * my) + turning * nx * ny
+        yy += stiffness * (p0 * ny * ny + 2.0 * p1 * ny * my + p2 * my * my) - turning * nx * nx
+        stored += 0.5 * stiffness * (top * i0 + rise * i1 + 0.5 * bend * i2)
+        pressed += p0 * width[j]
+        pressure[j], part[j] = i0 * softness, p0
     answer[_PUSH_X], answer[_PUSH_Y] = fx, fy
     answer[_STIFF_XX], answer[_STIFF_XY], answer[_STIFF_YY] = xx, xy, yy
     answer[_STORED], answer[_PRESSING] = stored, pressed
@@ -282,6 +309,7 @@ def wrap_balance(
             radius,
             work[_TRIAL_X, i],
             work[_TRIAL_Y, i],
+            cells[_NEAR:CELL_ROWS],
             cells[CELL_ROWS + i],
             cells[CELL_ROWS + rollers + i],
             answer,
@@ -653,6 +681,10 @@ def seat_rollers(
             pressures[event + i, j], pressures[seats.shape[1] + event + i, j] = pressure[j], part[j]
             whole += pressure[j]
             moment += pressure[j] * j
+        while first < last and part[first] == 0.0:
+            first += 1
+        while last > first and part[last - 1] == 0.0:
+            last -= 1
         seats[FIRST, event + i], seats[LAST, event + i] = first, max(first, last)
         seats[HALF_WIDTH, event + i] = 0.5 * work[_PRESSED, i]
         seats[PLACE, event + i] = moment / whole if whole > 0.0 else -1.0

@@ -79,7 +79,7 @@ _EDGE = 0.2
 _LEAST_SWEEP = 0.05
 """Cells that a roller sweeps at least to have its wear spread."""
 
-_SETTLED = 2e-3
+_SETTLED = 1e-2
 """Part of the wear of a stage by which its last two passes may differ."""
 
 _FREE_PASSES = 2
@@ -299,11 +299,10 @@ def springs(
         for j in range(low, high):
             compliance[j] = _WINKLER * half / modulus
         return
-    edge = _EDGE * half
+    edge = _EDGE * _EDGE * half * half
     for j in range(low, high):
         x = (j - place) * width
-        inside = half * half - x * x
-        compliance[j] = math.sqrt(inside) / modulus if inside > edge * edge else edge / modulus
+        compliance[j] = math.sqrt(max(half * half - x * x, edge)) / modulus
 
 
 @kernel(void(int64, int64, VECTOR, TABLE, TABLE, float64, int64, float64, TABLE, TABLE))

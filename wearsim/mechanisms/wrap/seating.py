@@ -123,7 +123,7 @@ class WrapSeating(PressedPlaces):
         self.outlines = np.zeros((OUTLINES * contact.bodies, points))
         self.compliance, self.raised = np.ones((most, points)), np.zeros((most, points))
         self.work = np.zeros((SEAT_WORK_ROWS, most))
-        self.cells = np.zeros((CELL_ROWS + 2 * most, max(points, 8)))
+        self.cells = np.zeros((CELL_ROWS + 2 * most, max(points + 2, 8)))
         self.sums = np.zeros((WORK_BEFORE + contact.bodies + 2 * most, points + 1))
         self.blocks = np.zeros((len(contact.blocks), BLOCK_ROWS))
         self.numbers = self._numbers(law)
