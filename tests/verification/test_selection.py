@@ -12,6 +12,7 @@ import pytest
 
 from wearsim.catalogue.catalogues import catalogue_rows, chains
 from wearsim.chain.drive_layout import layout_with_links
+from wearsim.chain.elongation_limit import elongation_limit
 from wearsim.chain.joint_pressure import (
     allowable_joint_pressure,
     joint_application,
@@ -35,7 +36,6 @@ from wearsim.chain.selection import (
     RatedDrive,
     RatingFinding,
     assess,
-    elongation_limit,
     overloading,
     rating_note,
     rating_warnings,

@@ -180,37 +180,6 @@ def rated_for_hours(findings: Sequence[RatingFinding]) -> list[RatingFinding]:
     return [one for one in findings if _rating(one).rated_hours]
 
 
-def elongation_limit(teeth: int, adjustable: bool = True) -> float:
-    """Return the elongation at which a chain is worn out.
-
-    3 % where the centre distance can be adjusted or a tensioner takes it up, 1.5 % where not;
-    never above 2/z of the larger sprocket, at which the rollers ride 0.318 p too high.
-
-    Parameters
-    ----------
-    teeth : int
-        Gaps of the larger sprocket.
-    adjustable : bool
-        Whether the elongation can be taken up.
-
-    Returns
-    -------
-    float
-        Elongation as a fraction.
-
-    Examples
-    --------
-    >>> elongation_limit(57), elongation_limit(100), elongation_limit(57, adjustable=False)
-    (0.03, 0.02, 0.015)
-    """
-    return min(greatest_elongation(adjustable), 2.0 / teeth)
-
-
-def greatest_elongation(adjustable: bool) -> float:
-    """Return the elongation at which a chain is worn out on wheels of few teeth, as a fraction."""
-    return 0.03 if adjustable else 0.015
-
-
 def rating_note(series: str) -> str:
     """Return what limits the use of the ANSI power ratings for a series of chains.
 

@@ -7,14 +7,7 @@ from dataclasses import replace
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings, polygon_effect
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.power_rating import hours_over_duty
-from wearsim.chain.selection import (
-    RATINGS,
-    RatedDrive,
-    RatingFinding,
-    assess,
-    elongation_limit,
-    greatest_elongation,
-)
+from wearsim.chain.selection import RATINGS, RatedDrive, RatingFinding, assess
 
 RatedLoad = tuple[str, RatedDrive]
 """A load in words, empty where it is the only one, and what the ratings need to know under it."""
@@ -59,22 +52,6 @@ def rules_without_limit(by_load: Sequence[Sequence[RatingFinding]]) -> tuple[str
     """Return the rules that say nothing about some load: a number or a row is missing."""
     found = [{finding.name for finding in findings} for findings in by_load]
     return tuple(name for name in RATINGS if not all(name in names for names in found))
-
-
-def elongation_rule(layout: DriveLayout | LoopLayout) -> tuple[float, str]:
-    """Return the elongation at which a chain is worn out [%], to four digits, and the rule in words."""
-    # Of two wheels the centre distance is adjusted; a loop has a take-up or none.
-    fixed = isinstance(layout, LoopLayout) and layout.drive.take_up is None
-    most = f"{100.0 * greatest_elongation(not fixed):g} %{' as nothing takes up' if fixed else ''}"
-    return float(f"{100.0 * elongation_limit(max(layout.all_teeth), not fixed):.4g}"), most
-
-
-def elongation_finding(layout: DriveLayout | LoopLayout, limit: float) -> RatingFinding:
-    """Return how the elongation at which a chain is replaced stands to the rule for it."""
-    allowed, most = elongation_rule(layout)
-    value = float(f"{100.0 * limit:.4g}")
-    rule = f"{most}, 200 % over the teeth of the larger sprocket"
-    return RatingFinding("elongation at the end", value, allowed, "%", rule)
 
 
 def drive_notes(

@@ -13,6 +13,7 @@ from wearsim.case.model import Case, Drive, LoadBlock, WearBand, WearInput, heav
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings
+from wearsim.chain.elongation_limit import elongation_finding
 from wearsim.chain.joint_wear import JointLaw, JointState, elongation_per_loop
 from wearsim.chain.loop_forces import LoopForces
 from wearsim.chain.loop_layout import LoopLayout
@@ -31,7 +32,6 @@ from wearsim.geometry.wheel_outline import WheelShape
 from wearsim.geometry.worn_tooth import measurement_over_pins, tip_land, tooth_thickness
 from wearsim.mechanisms.wrap.chain_rating import (
     drive_notes,
-    elongation_finding,
     findings_by_load,
     meetings_note,
     rules_without_limit,

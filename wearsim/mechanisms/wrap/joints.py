@@ -18,9 +18,9 @@ from wearsim.catalogue.catalogues import (
     wear_conditions,
 )
 from wearsim.chain.drive_layout import DriveLayout
+from wearsim.chain.elongation_limit import elongation_rule
 from wearsim.chain.joint_wear import JointBand, JointLaw, JointState, extrapolated, joint_band, joint_law
 from wearsim.chain.loop_layout import LoopLayout
-from wearsim.mechanisms.wrap.chain_rating import elongation_rule
 from wearsim.mechanisms.wrap.drive import (
     CONSTANT,
     JOINT_COEFFICIENT,

@@ -8,8 +8,9 @@ from itertools import product
 
 from wearsim.catalogue.catalogues import Chain, materials
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links, least_centre
+from wearsim.chain.elongation_limit import elongation_limit
 from wearsim.chain.joint_wear import JointState, elongation_per_loop, joint_band, joint_law
-from wearsim.chain.selection import RatedDrive, RatingFinding, assess, deciding, elongation_limit
+from wearsim.chain.selection import RatedDrive, RatingFinding, assess, deciding
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension, shaft_load
 from wearsim.chain.standard_teeth import standard_tip_diameter
 from wearsim.errors import GeometryError

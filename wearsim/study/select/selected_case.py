@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from wearsim.chain.selection import elongation_limit
+from wearsim.chain.elongation_limit import elongation_limit
 from wearsim.chain.service_conditions import LUBRICATIONS
 from wearsim.chain.standard_teeth import standard_form
 from wearsim.study.select.model import SAG, CandidateDrive
