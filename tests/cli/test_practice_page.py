@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from wearsim.chain.practice import RULES
+from wearsim.chain.practice_rules import RULES
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "practice.md").read_text(encoding="utf-8")

@@ -8,8 +8,8 @@ import pytest
 
 import wearsim
 from wearsim.chain.joint_wear import JointState, extrapolation
-from wearsim.chain.practice import geometric_mean, opinions
 from wearsim.chain.practice_drive import PracticeDrive
+from wearsim.chain.practice_rules import geometric_mean, opinions
 from wearsim.mechanisms.wrap.drive import WrapDrive
 
 WORDS = {"drive", "chain", "series"}

@@ -3,7 +3,7 @@
 import pytest
 
 import wearsim
-from wearsim.chain.practice import opinions, outside_practice, pressure_velocity
+from wearsim.chain.practice_rules import opinions, outside_practice, pressure_velocity
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
 from wearsim.drive.wrap_life import chain_practice

@@ -6,8 +6,8 @@ from collections.abc import Callable
 import pytest
 
 from tests.practice.conftest import DRIVES, Row, engine_band, engine_case, engine_hours
-from wearsim.chain.practice import geometric_mean, opinions
 from wearsim.chain.practice_drive import PracticeDrive
+from wearsim.chain.practice_rules import geometric_mean, opinions
 
 SPEEDS = (50, 100, 200, 400, 600, 800, 1000)
 PITCHES = {"ANSI 40": 12.7, "ANSI 50": 15.875, "ANSI 60": 19.05, "ANSI 80": 25.4}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from wearsim.chain.practice import RULES, geometric_mean, opinions
+from wearsim.chain.practice_rules import RULES, geometric_mean, opinions
 
 NAMES = {
     "vorobyev_4350": "Vorobyev 4350",

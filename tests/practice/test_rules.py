@@ -5,7 +5,7 @@ import math
 import pytest
 
 from wearsim.catalogue.catalogues import catalogue_rows
-from wearsim.chain.practice import geometric_mean, opinions, outside_practice
+from wearsim.chain.practice_rules import geometric_mean, opinions, outside_practice
 from wearsim.errors import CaseError
 from wearsim.lubrication.recommended import (
     lubrication_life_factor,

@@ -77,7 +77,13 @@ class SecondOpinions:
 def second_opinions(*duty: "PracticeDrive") -> SecondOpinions:
     """Return what the published rules say of a drive, given once for each block of its duty."""
     # Read by a chain's life only: a strand starts without the tables of the rules.
-    from wearsim.chain.practice import fastest, geometric_mean, opinions, outside_practice, pressure_velocity
+    from wearsim.chain.practice_rules import (
+        fastest,
+        geometric_mean,
+        opinions,
+        outside_practice,
+        pressure_velocity,
+    )
 
     found, judged = opinions(*duty), fastest(duty)
     return SecondOpinions(
@@ -168,7 +174,7 @@ def rule_rows(found: SecondOpinions) -> list[tuple[str, str, str, str]]:
 
     The last row is the limit of pressure times speed, which has no hours.
     """
-    from wearsim.chain.practice import PRESSURE_VELOCITY
+    from wearsim.chain.practice_rules import PRESSURE_VELOCITY
 
     least, most = PRESSURE_VELOCITY
     side = "within" if found.pressure_velocity <= least else "BEYOND"

@@ -1,9 +1,9 @@
-"""Wear life of a chain by the rules that the trade publishes: practice, not measurement.
+"""Lives by the rules that the trade publishes: formulas here, their words in practice_rules.csv.
 
-Handbooks and standards of four schools, each with hours of its own for a drive. They are second
-opinions beside a computed life: single rules scatter by a factor of 1.8 about their mean, and for
-most of them the constants were not checked against the printed page. Written in the handbooks'
-units: m/s, rpm, kW.
+That table stands in the catalogue. Handbooks and standards of four schools, each with hours of its
+own for a drive: practice, not measurement. They are second opinions beside a computed life: single
+rules scatter by a factor of 1.8 about their mean, and for most of them the constants were not
+checked against the printed page. Written in the handbooks' units: m/s, rpm, kW.
 """
 
 import math
