@@ -7,7 +7,8 @@ import pytest
 from scipy import stats
 
 from wearsim.case.keys.study_tables import Distribution
-from wearsim.runner.scatter import METHODS, quantile, unit_samples
+from wearsim.runner.samples import METHODS, unit_samples
+from wearsim.runner.scatter import quantile
 from wearsim.study.uncertainty.percentiles import fit_distributions, percentile
 
 ALL = np.full(1000, True)

@@ -15,7 +15,7 @@ from wearsim.geometry.profile_points import Vector
 from wearsim.input.keys import parts, schema_fields, schema_of, words
 from wearsim.input.table import without_numbers
 from wearsim.runner.design import NAMES_FILE
-from wearsim.runner.scatter import unit_samples
+from wearsim.runner.samples import unit_samples
 
 _DIGITS = 7
 """Of a value between two ends: what a drawing can hold, and twice the same is found again."""

@@ -21,7 +21,8 @@ from wearsim.errors import StudyError
 from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
 from wearsim.runner.design import Design, replaced
-from wearsim.runner.scatter import EDGE, ScatteredCase, ScatteredKey, load_scattered
+from wearsim.runner.samples import EDGE
+from wearsim.runner.scatter import ScatteredCase, ScatteredKey, load_scattered
 from wearsim.runner.solve_for import hours_to_wear, solve_for
 
 LOW, HIGH = 0.1, 0.9

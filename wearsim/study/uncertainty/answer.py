@@ -14,9 +14,9 @@ from wearsim.report.answer_table import table_of
 from wearsim.report.public_answer import DrawnAnswer
 from wearsim.runner.in_threads import SEED, THREADS, Progress, run, silent
 from wearsim.runner.run_study import failures
-from wearsim.runner.scatter import METHODS, Method
+from wearsim.runner.samples import METHODS, Method
+from wearsim.study.uncertainty.life_statistics import UncertaintyAnswer
 from wearsim.study.uncertainty.model import load_uncertainty
-from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
 from wearsim.study.uncertainty.sheet import uncertainty_json, uncertainty_text, write_uncertainty
 
 if TYPE_CHECKING:

@@ -21,8 +21,8 @@ from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import exit_code, run
 
 if TYPE_CHECKING:
-    from wearsim.runner.scatter import Method
-    from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
+    from wearsim.runner.samples import Method
+    from wearsim.study.uncertainty.life_statistics import UncertaintyAnswer
 
 
 _ROUNDING = 1e-9
@@ -92,7 +92,7 @@ def uncertainty(
     table = run(study.design, options, identity, f"sampling {study.scattered.case.title}")
     if table is None:
         return 0
-    from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer, uncertainty_warnings
+    from wearsim.study.uncertainty.life_statistics import UncertaintyAnswer, uncertainty_warnings
     from wearsim.study.uncertainty.sheet import uncertainty_json, uncertainty_text, write_uncertainty
 
     code, answer = exit_code(table), UncertaintyAnswer(study, table)

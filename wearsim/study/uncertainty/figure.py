@@ -9,7 +9,7 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 from scipy import stats
 
 from wearsim.report.figures import number_ticks
-from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer
+from wearsim.study.uncertainty.life_statistics import UncertaintyAnswer
 
 _TICKS = (0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 0.95, 0.99)
 _COLOURS = ("tab:red", "black", "tab:blue", "tab:orange", "tab:green", "tab:purple")

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from wearsim.input.document import CaseSource
 from wearsim.runner.design import Design
-from wearsim.runner.scatter import Method, ScatteredCase, load_scattered, unit_samples
+from wearsim.runner.samples import Method, unit_samples
+from wearsim.runner.scatter import ScatteredCase, load_scattered
 
 
 @dataclass(frozen=True)

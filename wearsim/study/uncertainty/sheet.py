@@ -12,9 +12,9 @@ from wearsim.report.answer_table import plain, records_of
 from wearsim.report.study_files import save_figures, save_files
 from wearsim.report.text_lines import closing_lists, fenced
 from wearsim.study.uncertainty.cross_check import BoundedValue, CrossCheck, CrossFit
+from wearsim.study.uncertainty.life_statistics import UncertaintyAnswer, uncertainty_warnings
 from wearsim.study.uncertainty.model import UncertaintyStudy
 from wearsim.study.uncertainty.percentiles import B10, CONFIDENCE, DistributionFit, Percentile
-from wearsim.study.uncertainty.sampled_lives import UncertaintyAnswer, uncertainty_warnings
 
 
 def uncertainty_text(answer: UncertaintyAnswer) -> str:
