@@ -2,6 +2,10 @@
 
 A limit on a worn tooth is a row of `LIMITS` and its key in the table of names. One whose quantity the row
 cannot tell from the tooth, a mechanism adds to its own limits.
+
+Where inside a step a limit is met is found in `wearsim/wear/limit_in_step.py`, by `_retreat` and `_on_limit`
+of the reference loop, `wearsim/wear/loop.py`, and for a depth by `part_to_depth` of the kernel
+`controlled_steps.py`.
 """
 
 from collections.abc import Callable

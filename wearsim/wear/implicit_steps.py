@@ -20,8 +20,9 @@ from wearsim.contact.resting_engagement import MateWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit, jump_limit
 from wearsim.errors import ConvergenceError, JumpError
 from wearsim.geometry.profile_points import Vector
+from wearsim.wear.limit_in_step import go_back_to_limit, limit_of_bodies
 from wearsim.wear.mate_leaps import MateLeaps
-from wearsim.wear.problem import Rows, WearProblem, first_place
+from wearsim.wear.problem import Rows, WearProblem
 from wearsim.wear.resting_bodies import WornBodies, WornState
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory
 
@@ -264,7 +265,7 @@ def _run(
             if _taken_back(leaps, bodies, record, pace):
                 continue
             return _stopped(bodies, before, record, error)
-        met = _limit_met(problem, bodies, before)
+        met = go_back_to_limit(problem, bodies, before)
         if met is not None and _taken_back(leaps, bodies, record, pace):
             met = None
             continue
@@ -299,7 +300,7 @@ def _holds_on(
 ) -> bool:
     """Tell whether a mate may come to its end on the bodies within all limits."""
     worn = MateWear(problem.contact.elongation_limit, record.ends[-1].wear.depth)
-    within = bodies.cycles < end and _met(problem, bodies) is None
+    within = bodies.cycles < end and limit_of_bodies(problem, bodies) is None
     return within and problem.contact.holds(bodies.x, bodies.y, worn)
 
 
@@ -312,32 +313,3 @@ def _stopped(
     if isinstance(error, JumpError):
         return record.trajectory(bodies, jump_limit(bodies.contact.slack_tension))
     return replace(record.trajectory(bodies, None), lost=str(error))
-
-
-def _met(problem: WearProblem[RestingContact], bodies: WornBodies) -> StopLimit | None:
-    found = (problem.met(*body) for body in zip(bodies.x, bodies.y, bodies.depth, strict=True))
-    return next((stop_limit for stop_limit in found if stop_limit is not None), None)
-
-
-def _limit_met(
-    problem: WearProblem[RestingContact], bodies: WornBodies, before: WornState
-) -> StopLimit | None:
-    """Return the limit that the last step has met, if any, and go back to where it was met."""
-    contact, met = problem.contact, _met(problem, bodies)
-    if met is not None:
-        _cut(bodies, before, lambda: _met(problem, bodies) is not None)
-    if not contact.holds(bodies.x, bodies.y, bodies.wear):
-        met = jump_limit(contact.slack_limit)
-        _cut(bodies, before, lambda: not contact.holds(bodies.x, bodies.y, bodies.wear))
-    return met
-
-
-def _cut(bodies: WornBodies, before: WornState, fails: Callable[[], bool]) -> None:
-    """Go back on the last step to the first place at which something fails."""
-    after = bodies.state()
-
-    def fails_after(part: float) -> bool:
-        bodies.go_back(bodies.on_the_way(before, after, part))
-        return fails()
-
-    bodies.go_back(bodies.on_the_way(before, after, first_place(fails_after, 0.0, 1.0)))

@@ -33,7 +33,8 @@ from wearsim.kernels.hertz_wear import (
     VANISHED,
     WORN,
 )
-from wearsim.wear.problem import AnyContact, WearProblem, first_place
+from wearsim.wear.limit_in_step import first_place
+from wearsim.wear.problem import AnyContact, WearProblem
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
 
 _BLOCK = 50_000

@@ -7,7 +7,6 @@ steps. That is the engine's, which has two ways through a problem: `wearsim.wear
 as they stand, and `wearsim.wear.advance`, long steps of controlled error.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Generic, Self, TypeVar
 
@@ -23,8 +22,6 @@ from wearsim.wear.law import WearLaw
 Rows = NDArray[np.float64]
 
 AnyContact = TypeVar("AnyContact", FlankContact, RestingContact)
-
-AnyNumber = TypeVar("AnyNumber", int, float)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,18 +70,3 @@ class WearProblem(Generic[AnyContact]):
         margins = [(stop_limit.margin(x, y, depth), stop_limit) for stop_limit in self.stop_limits]
         worst = min(margins, key=lambda pair: pair[0])
         return worst[1] if worst[0] <= 0.0 else None
-
-
-def first_place(fails: Callable[[AnyNumber], bool], low: AnyNumber, high: AnyNumber) -> AnyNumber:
-    """Return the first place at which a limit fails, by bisection to the last bit or the last whole number.
-
-    Examples
-    --------
-    >>> first_place(lambda part: part >= 0.3, 0.0, 1.0), first_place(lambda update: update >= 3, 0, 10)
-    (0.3, 3)
-    """
-    while True:
-        middle = (low + high) // 2 if isinstance(high, int) else 0.5 * (low + high)
-        if not low < middle < high:
-            return high
-        low, high = (low, middle) if fails(middle) else (middle, high)

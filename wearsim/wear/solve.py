@@ -23,6 +23,7 @@ from wearsim.kernels.controlled_steps import (
 )
 from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RATE, RUNNING, SAWTOOTH, VANISHED, WORN
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
+from wearsim.wear.limit_in_step import first_limit_on_path
 from wearsim.wear.problem import Rows, WearProblem
 from wearsim.wear.trajectory import check_sawtooth, check_touch, no_sliding
 
@@ -72,6 +73,11 @@ def states_at(wanted: Vector, times: Vector, path: Rows) -> Rows:
     found = np.empty((wanted.size, 3, path.shape[2]))
     states_between(times, path, wanted, found)
     return found
+
+
+def _state_at(times: Vector, path: Rows, time: float) -> Rows:
+    state: Rows = states_at(np.array([time]), times, path)[0]
+    return state
 
 
 class TooManyStepsError(ConvergenceError):
@@ -160,7 +166,7 @@ class _Solve:
             self.chunks[-1] = times[: failing + 1], path[: failing + 1]
         times, path = (np.concatenate(parts) for parts in zip(*self.chunks, strict=True))
         if failing is not None:
-            end, met = self._cut(times[-2:].copy(), path[-2:].copy(), end, met)
+            end, met = self._limit_in_last_step(times[-2:].copy(), path[-2:].copy(), end, met)
         return Solution(end, met, rates, states_at(np.array([end]), times, path)[0], times, path)
 
     def _states(self) -> int:
@@ -184,22 +190,12 @@ class _Solve:
                 return place
         return None
 
-    def _cut(
+    def _limit_in_last_step(
         self, times: Vector, path: Rows, end: float, met: StopLimit | None
     ) -> tuple[float, StopLimit | None]:
         """Return where in the last step the first of the limits that fail after it is met."""
-        from scipy.optimize import brentq  # takes 0.1 s, and most runs end on the depth
-
-        low, high = times[0], times[-1]
-        for stop_limit in self.problem.stop_limits[1:]:
-            if stop_limit.margin(*path[-1, :3]) > 0.0:
-                continue
-            # What brentq is given refers to itself from then on, and stays until Python collects garbage.
-            margin = partial(_margin, times, path, stop_limit)
-            time = brentq(margin, low, high, rtol=1e-14, xtol=1e-300) if margin(low) > 0.0 else low
-            if time < end or (time == end and met is None):
-                end, met = float(time), stop_limit
-        return end, met
+        others, state = self.problem.stop_limits[1:], partial(_state_at, times, path)
+        return first_limit_on_path(others, state, (times[0], times[-1]), path[-1, :3], (end, met))
 
     def _cycles_run(self, time: float) -> float:
         law = self.problem.law
@@ -226,10 +222,6 @@ class _Solve:
             f"wear at cycle {cycles:.6g}, {place:.4g} mm from the root: the solver must be able to go "
             'on, but stopped: use method = "per_cycle" or more nodes'
         )
-
-
-def _margin(times: Vector, path: Rows, stop_limit: StopLimit, time: float) -> float:
-    return stop_limit.margin(*states_at(np.array([time]), times, path)[0])
 
 
 def solve_together(problems: Problems, tolerances: Sequence[float]) -> list[Solution | WearsimError]:
