@@ -9,7 +9,7 @@ import pytest
 
 from wearsim.drive.load_case import load_drive
 from wearsim.drive.maintenance import part_lives
-from wearsim.drive.plan import Prices, cheapest, replacement_rules
+from wearsim.drive.replacement_rules import Prices, cheapest, replacement_rules
 from wearsim.quantities import grouped
 from wearsim.report.drive.plan_words import ordinal, rule_text
 from wearsim.result import Life, LowerBound

@@ -8,8 +8,8 @@ import time
 import numpy as np
 import pytest
 
-from wearsim.drive.plan import Prices, cheapest, replacement_rules
 from wearsim.drive.renewal import Cycle, cheapest_cycle, fewest_stops, least_cost_rate
+from wearsim.drive.replacement_rules import Prices, cheapest, replacement_rules
 
 
 def least_of_all_schedules(lives, prices, stop, hours):

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from wearsim.case.keys import MaintenanceTable
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import DriveLife
-from wearsim.drive.plan import STOPS, Prices, ReplacementRule, Stop, cheapest, replacement_rules
 from wearsim.drive.renewal import SAME, least_cost_rate
+from wearsim.drive.replacement_rules import STOPS, Prices, ReplacementRule, Stop, cheapest, replacement_rules
 from wearsim.quantities import DAYS_OF_YEAR
 from wearsim.result import Life, LowerBound
 from wearsim.result.ends import CHAIN
@@ -155,5 +155,4 @@ def _prices(drive: DriveCase) -> Prices | None:
     }
     if first.chain_price is None or len(prices) < len(drive.wheels):
         return None
-    stop = (first.downtime_hours or 0.0) * (first.downtime_cost_per_hour or 0.0)
-    return Prices(first.chain_price, prices, stop)
+    return Prices(first.chain_price, prices, first.stop_cost)

@@ -71,6 +71,11 @@ class MaintenanceTable(Table):
     downtime_hours: Positive | None = None
     downtime_cost_per_hour: PositiveNumber | None = None
 
+    @property
+    def stop_cost(self) -> float:
+        """Cost of one stop: hours of standstill times their cost, 0 where neither is given."""
+        return (self.downtime_hours or 0.0) * (self.downtime_cost_per_hour or 0.0)
+
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         needs = (

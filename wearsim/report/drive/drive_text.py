@@ -4,7 +4,7 @@ import shlex
 
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan
-from wearsim.drive.plan import Stop
+from wearsim.drive.replacement_rules import Stop
 from wearsim.report.answer import pressure_that_counts, used_text
 from wearsim.report.drive.drive_words import (
     Lives,

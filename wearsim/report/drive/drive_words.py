@@ -8,7 +8,7 @@ from wearsim.chain.selection import deciding, rated_for_hours
 from wearsim.drive.drive_case import said_of_sprockets
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan, planned_events
-from wearsim.drive.plan import Stop
+from wearsim.drive.replacement_rules import Stop
 from wearsim.quantities import grouped
 from wearsim.report.answer import (
     JUMPING,

@@ -11,7 +11,7 @@ from wearsim.chain.loop_layout import LoopLayout
 from wearsim.drive.drive_case import DriveCase, DriveSprocket
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan
-from wearsim.drive.plan import Stop
+from wearsim.drive.replacement_rules import Stop
 from wearsim.drive.wheels import DriveWheel
 from wearsim.errors import CaseError, GeometryError
 from wearsim.mechanisms.wrap.drive import PRESSURE_SPEED, JointInput

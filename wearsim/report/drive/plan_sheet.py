@@ -6,7 +6,7 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.drive.maintenance import DrivePlan
-from wearsim.drive.plan import ReplacementRule, Stop
+from wearsim.drive.replacement_rules import ReplacementRule, Stop
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column, csv_of, table_of
 from wearsim.report.drive.plan_words import rule_text

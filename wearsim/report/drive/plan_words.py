@@ -1,7 +1,7 @@
 """A plan of replacements in words."""
 
-from wearsim.drive.plan import ReplacementRule
 from wearsim.drive.renewal import Cycle, cycles_in_life
+from wearsim.drive.replacement_rules import ReplacementRule
 from wearsim.quantities import grouped
 from wearsim.report.text_lines import listed
 from wearsim.result.ends import CHAIN
@@ -27,7 +27,7 @@ def rule_text(rule: ReplacementRule) -> str:
 
     Examples
     --------
-    >>> from wearsim.drive.plan import replacement_rules
+    >>> from wearsim.drive.replacement_rules import replacement_rules
     >>> for rule in replacement_rules(1000.0, {"driver": 900.0, "roll": 9950.0})[:2]:
     ...     rule_text(rule)
     'chain every 1 000 h, driver every 900 h, roll every 9 950 h'

@@ -105,8 +105,8 @@ def cost_per_1000_hours(table: MaintenanceTable, hours: float, chains: int, stop
     """
     if table.chain_price is None or table.sprocket_price is None:
         return None
-    stop = (table.downtime_hours or 0.0) * (table.downtime_cost_per_hour or 0.0)
-    return 1000.0 * (chains * table.chain_price + table.sprocket_price + stops * stop) / hours
+    parts = chains * table.chain_price + table.sprocket_price
+    return 1000.0 * (parts + stops * table.stop_cost) / hours
 
 
 def maintain(case: Case, progress: Progress = lambda done, of: None) -> MaintenancePlan:
