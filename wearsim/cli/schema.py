@@ -46,7 +46,7 @@ def result_schema() -> dict[str, Any]:
 
     from wearsim.contact.stop_limits import LIMITS
 
-    found: dict[str, Any] = json.loads(files("wearsim").joinpath("result.schema.json").read_text("utf-8"))
+    found: dict[str, Any] = json.loads(files("wearsim").joinpath("life.schema.json").read_text("utf-8"))
     stop = found["$defs"]["life"]["properties"]["stop"]
     stop["enum"] = [*LIMITS, *stop["enum"]]
     return found

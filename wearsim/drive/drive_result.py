@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-_PICTURES, _SHEET = "wearsim.report.result_pictures", "wearsim.report.drive.drive_words"
+_PICTURES, _JSON = "wearsim.report.result_pictures", "wearsim.report.drive.drive_json"
 _FOLDER = "wearsim.report.drive.drive_folder"
 """What shows and writes a result; they know results, and not the other way round."""
 
@@ -168,7 +168,7 @@ class DriveLife:
         dict
             Plain numbers, strings, lists and None; never nan.
         """
-        found: dict[str, Any] = import_module(_SHEET).drive_json(self)
+        found: dict[str, Any] = import_module(_JSON).drive_json(self)
         return found
 
     def save(self, folder: str | Path, force: bool = False, parquet: bool = False) -> None:

@@ -15,7 +15,7 @@ from wearsim.drive.load_case import load_drive
 from wearsim.errors import OutputError, WearsimError
 from wearsim.files import file_names, new_folder
 from wearsim.input.document import GivenInput, leaves, text_of
-from wearsim.report.drive.drive_words import drive_json
+from wearsim.report.drive.drive_json import drive_json
 from wearsim.result import WearResult
 from wearsim.result.folder import FILE_KEYS, SCHEMA_VERSION, write_parquet
 

@@ -1,9 +1,7 @@
-"""What is found of a whole drive, in words and as JSON."""
+"""What is found of a whole drive, in words."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
-from wearsim._version import ANSWER_HEAD
 from wearsim.chain.selection import deciding, rated_for_hours
 from wearsim.drive.drive_case import said_of_sprockets
 from wearsim.drive.drive_result import DriveLife
@@ -21,14 +19,12 @@ from wearsim.report.answer import (
     service_text,
     used_text,
 )
-from wearsim.report.drive.layout import layout_json
 from wearsim.report.drive.plan_words import ordinal
 from wearsim.report.text_lines import Finding, listed, stated_and_defaults
-from wearsim.result import Life, LowerBound, WearResult, life_keys
-from wearsim.result.ends import CHAIN, before_wear, ends_json, first_end_keys
-from wearsim.result.events import events_json
-from wearsim.result.lives import hours, service_keys, service_measures
-from wearsim.result.second_opinions import opinions_json, practice_text
+from wearsim.result import Life, LowerBound, WearResult
+from wearsim.result.ends import CHAIN, before_wear
+from wearsim.result.lives import hours, service_measures
+from wearsim.result.second_opinions import practice_text
 
 Lives = Mapping[str, Life | LowerBound]
 
@@ -245,11 +241,11 @@ def part_name(name: str) -> str:
 
 def band_text(found: DriveLife) -> str:
     """Return in words how sure the first life is."""
-    low, high = (hours(life) for life in found.band(_banded(found)))
-    return f"{low} to {high} for the {part_name(_banded(found))}, over the band of its wear coefficient"
+    low, high = (hours(life) for life in found.band(banded_part(found)))
+    return f"{low} to {high} for the {part_name(banded_part(found))}, over the band of its wear coefficient"
 
 
-def _banded(found: DriveLife) -> str:
+def banded_part(found: DriveLife) -> str:
     """Return whose band is shown: that of the part worn out first, of the first sprocket if none is."""
     return found.first_worn or next(iter(found.results))
 
@@ -294,33 +290,3 @@ def taken_for_granted(found: DriveLife) -> tuple[tuple[str, ...], tuple[str, ...
     stated, defaults = ({name: texts[kind] for name, texts in split.items()} for kind in (0, 1))
     wheels = found.drive.wheels
     return said_of_sprockets(stated, wheels), said_of_sprockets(defaults, wheels)
-
-
-def drive_json(found: DriveLife) -> dict[str, Any]:
-    """Return what ``wearsim life --json`` prints of a whole drive."""
-    drive, (low, high) = found.drive, found.band(_banded(found))
-    return {
-        **ANSWER_HEAD,
-        "case": drive.name,
-        "title": drive.title,
-        **life_keys("life_hours", found.life),
-        **life_keys("life_hours_low", low),
-        **life_keys("life_hours_high", high),
-        "first": found.first_worn or None,
-        **first_end_keys(found.ends),
-        **life_keys("chain_life_hours", found.chain),
-        **service_keys(drive.driver.case.inputs, found.life),
-        "overloaded": bool(found.overloaded),
-        "ends": ends_json(found.ends),
-        "events": events_json(planned_events(drive_plan(found))),
-        **({} if found.practice is None else {"practice": opinions_json(found.practice)}),
-        "sprockets": [_sprocket_json(found, one.name) for one in drive.sprockets],
-        "layout": layout_json(drive),
-        "warnings": list(found.warnings),
-    }
-
-
-def _sprocket_json(found: DriveLife, name: str) -> dict[str, Any]:
-    if name in found.failed:
-        return {"name": name, "error": str(found.failed[name])}
-    return {"name": name, **found.results[name].summary(), "chains": found.chains_with(name)}
