@@ -7,11 +7,8 @@ import pytest
 from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.chain.practice_rules import geometric_mean, opinions, outside_practice
 from wearsim.errors import CaseError
-from wearsim.lubrication.recommended import (
-    lubrication_life_factor,
-    lubrication_speed_limits,
-    recommended_lubrication,
-)
+from wearsim.lubrication.lubrication_life_factor import lubrication_life_factor
+from wearsim.lubrication.recommended import lubrication_speed_limits, recommended_lubrication
 
 
 def hours(drive) -> dict[str, float | None]:

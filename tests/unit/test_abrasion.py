@@ -2,7 +2,7 @@
 
 import pytest
 
-from wearsim.lubrication.law import abrasion_share
+from wearsim.lubrication.dirt import abrasion_share
 
 
 @pytest.mark.parametrize(

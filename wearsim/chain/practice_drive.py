@@ -9,11 +9,8 @@ from wearsim.catalogue.catalogues import environments
 from wearsim.chain.power_rating import strand_factor
 from wearsim.chain.service_conditions import LUBRICATIONS
 from wearsim.errors import CaseError, Fault
-from wearsim.lubrication.recommended import (
-    LubricationFactor,
-    lubrication_life_factor,
-    recommended_lubrication,
-)
+from wearsim.lubrication.lubrication_life_factor import LubricationFactor, lubrication_life_factor
+from wearsim.lubrication.recommended import recommended_lubrication
 
 RATED_ELONGATION = 0.03
 """At which the rules take a chain for worn out."""

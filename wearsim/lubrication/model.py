@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from wearsim.lubrication.dirt import CLEAN, Dirt
 from wearsim.quantities import grouped
 
 
@@ -16,14 +17,6 @@ class RunningWay:
 
 ENDLESS = RunningWay(math.inf)
 """For ever."""
-
-
-@dataclass(frozen=True)
-class Dirt:
-    """What the surroundings do to the contacts."""
-
-    excess: float = 0.0  # what it adds to the factor 1 on the wear
-    ageing: float = 1.0  # how many times as fast a lubricant ages
 
 
 @dataclass(frozen=True)
@@ -46,7 +39,7 @@ class LubricationInput:
     fades: RunningWay = RunningWay()  # way on which it loses it then
     completeness: float = 1.0  # part of its age that a relubrication takes away
     dirt_removed: float = 1.0  # part of what dirt adds that a relubrication takes away
-    dirt: Dirt = Dirt()  # outside phases
+    dirt: Dirt = CLEAN  # outside phases
     interval: RunningWay | None = None  # between relubrications, after `at_hours` where there are some
     at_hours: tuple[float, ...] = ()  # of relubrications [h]
     first: str = ""  # key and value, as given, that say when contacts are first relubricated

@@ -3,8 +3,9 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from wearsim.catalogue.catalogues import Lubricant, environments, lubricants, wear_conditions
+from wearsim.catalogue.catalogues import Lubricant, lubricants, wear_conditions
 from wearsim.input.faults import CaseRecord
+from wearsim.lubrication.dirt import Dirt, read_dirt
 from wearsim.lubrication.keys import (
     AT,
     FADES,
@@ -15,8 +16,7 @@ from wearsim.lubrication.keys import (
     LubricationPhase,
     LubricationTable,
 )
-from wearsim.lubrication.law import abrasion_share
-from wearsim.lubrication.model import ENDLESS, Dirt, LubricationInput, PhaseInput, RunningWay
+from wearsim.lubrication.model import ENDLESS, LubricationInput, PhaseInput, RunningWay
 
 
 def lubrication_input(
@@ -69,7 +69,7 @@ class _Reader:
         self._check_supply()
         ages = self._ages()
         dry_factor = self._dry_factor() if ages else 1.0
-        dirt = self._dirt(table, "lubrication")
+        dirt = read_dirt(self.case, table, table, "lubrication")
         phases = tuple(self._phase(number, phase, dirt) for number, phase in enumerate(table.phase, start=1))
         renewed = any(getattr(table, key) not in (None, []) for key in SCHEDULES)
         dirty = any(of.excess > 0.0 for of in (dirt, *(phase.dirt for phase in phases)))
@@ -223,43 +223,13 @@ class _Reader:
             )
         return given
 
-    def _dirt(self, table: LubricationTable | LubricationPhase, place: str) -> Dirt:
-        """Return what dirt does: given, or as in the environment, which is said."""
-        row = environments()[table.environment or "clean"]
-        given = {"contamination_factor": table.contamination_factor, "ageing_factor": table.ageing_factor}
-        taken = {"contamination_factor": row.factor, "ageing_factor": row.ageing}
-        for key, value in taken.items():
-            if given[key] is None and value != 1.0:
-                span = f": {row.low:g} to {row.high:g}" if key == "contamination_factor" else ""
-                why = f"environment {row.environment!r}{span}; {row.source}"
-                if table is self.table:
-                    self.case.take(f"{place}.{key}", value, why)
-                else:
-                    self.case.assumptions.append(f"{place}.{key} = {value:g} ({why})")
-        excess = (given["contamination_factor"] or row.factor) - 1.0
-        ageing = given["ageing_factor"] or row.ageing
-        return Dirt(self._abrasion(table, place) * excess, ageing)
-
-    def _abrasion(self, table: LubricationTable | LubricationPhase, place: str) -> float:
-        """Return which part of what dirt adds its hardness leaves: all or none."""
-        hardness, surface = table.abrasive_hardness_HV, self.table.surface_hardness_HV
-        if hardness is None or surface is None:
-            return 1.0
-        share = abrasion_share(hardness, surface)
-        scratches = "scratches" if share else "does not scratch"
-        self.case.assumptions.append(
-            f"{place}: dirt of {hardness:g} HV {scratches} surfaces of {surface:g} HV, as it must be 1.2 "
-            "times as hard (Hutchings); teeth, pins and bushes have one hardness"
-        )
-        return share
-
     def _phase(self, number: int, phase: LubricationPhase, dirt: Dirt) -> PhaseInput:
         key = "km" if phase.hours is None else "hours"
         place = f"phase.{number}"
         hours = self._hours(f"{place}.{key}", phase.hours or phase.km or 0.0)
         own = (phase.environment, phase.contamination_factor, phase.ageing_factor, phase.abrasive_hardness_HV)
         if any(own):
-            dirt = self._dirt(phase, f"lubrication.{place}")
+            dirt = read_dirt(self.case, self.table, phase, f"lubrication.{place}")
         return PhaseInput(hours, dirt, phase.relubrications, phase.contaminations)
 
     def _cost(self) -> float | None:

@@ -14,7 +14,8 @@ from wearsim.chain.selection import RatedDrive, RatingFinding, assess, deciding
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension, shaft_load
 from wearsim.chain.standard_teeth import standard_tip_diameter
 from wearsim.errors import GeometryError
-from wearsim.lubrication.recommended import lubrication_life_factor, recommended_lubrication
+from wearsim.lubrication.lubrication_life_factor import lubrication_life_factor
+from wearsim.lubrication.recommended import recommended_lubrication
 from wearsim.mechanisms.wrap.drive import LIGHT_CHAIN
 from wearsim.study.select.considered_chains import considered_chains
 from wearsim.study.select.requirements import DriveRequirements
