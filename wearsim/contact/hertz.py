@@ -1,4 +1,8 @@
-"""Hertz line contact of two elastic cylinders."""
+"""Hertz line contact of two elastic cylinders.
+
+The kernels `hertz_wear.py`, `severity.py` and `offset.py` repeat the pressure; on a wrap `springs` of
+`wrap_stage.py` yield it.
+"""
 
 import math
 

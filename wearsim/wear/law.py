@@ -2,6 +2,9 @@
 
 All are one expression, depth = K sigma^m v^n times the path a point slides: the swept
 width c_m 2a times the slip ratio in a travelling contact, the given path in a local one.
+
+The kernels that raise to the pressure exponent m: `hertz_wear.py` and `offset.py`; on a wrap `wrap_stage.py`,
+and event by event `half_space.py` and `wrap_wear.py`.
 """
 
 import math

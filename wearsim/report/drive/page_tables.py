@@ -1,4 +1,4 @@
-"""Tables of the sheet of a drive: geometry, forces, ratings, lives and replacements, in words."""
+"""Tables of the sheet of a drive: geometry, forces, lubrication, lives and replacements, in words."""
 
 import math
 from functools import partial
