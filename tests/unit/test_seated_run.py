@@ -298,9 +298,14 @@ def test_steps_are_halved_where_the_error_asks_for_it():
     assert life(tight) == pytest.approx(life(loose), rel=error + less)
 
 
-def test_phases_are_doubled_where_halved_steps_do_not_help(monkeypatch):
+@pytest.mark.parametrize(
+    ("halved", "asked_first"),
+    [((0.05, 0.055), [(1, 0), (1, 1), (1, 2)]), ((0.08, 0.01), [(1, 0), (1, 1)])],
+    ids=["they stop helping", "as much again would not do"],
+)
+def test_phases_are_doubled_where_halved_steps_do_not_help(monkeypatch, halved, asked_first):
     """The errors that runs state stand for runs here: phases and halvings, until 0.02 or nothing is left."""
-    stated = {(1, 0): 0.09, (1, 1): 0.08, (1, 2): 0.085, (2, 1): 0.03, (2, 2): 0.01}
+    stated = {(1, 0): 0.09, (1, 1): halved[0], (1, 2): halved[1], (2, 1): 0.03, (2, 2): 0.01}
     of, asked = contact("mechanism.phases=2"), []
 
     def pair(problems, *rest):
@@ -310,13 +315,15 @@ def test_phases_are_doubled_where_halved_steps_do_not_help(monkeypatch):
         return [stated[asked[-1]], 0.0]
 
     monkeypatch.setattr(settled_run, "run_together", pair)
-    monkeypatch.setattr(settled_run, "difference", lambda run, coarse: 0.0)
-    monkeypatch.setattr(settled_run, "spared", lambda run, limit, error: run)
+    monkeypatch.setattr(settled_run, "_SAFETY", 1.0)
+    monkeypatch.setattr(settled_run, "_AT_LEAST", 0.0)
+    monkeypatch.setattr(settled_run, "difference", lambda run, coarse: run)
+    monkeypatch.setattr(settled_run, "spared", lambda run, limit, error: error)
     assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.02) == (0.01, 0.01)
-    assert asked == [(1, 0), (1, 1), (1, 2), (2, 1), (2, 2)]
+    assert asked == [*asked_first, (2, 1), (2, 2)]
     asked.clear()
-    assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.04) == (0.03, 0.03)
-    assert asked == [(1, 0), (1, 1), (1, 2), (2, 1)]
+    assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.035) == (0.03, 0.03)
+    assert asked == [*asked_first, (2, 1)]
     asked.clear()
     assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.09) == (0.09, 0.09)
     assert asked == [(1, 0)]

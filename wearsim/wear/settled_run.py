@@ -71,7 +71,7 @@ def advance_resting(
 
     Beside each run goes one with steps twice as long on half of the points and phases, which takes an eighth
     of the time. It tells how wrong steps, points and phases together make the life. Where that is too much,
-    both take half of the steps, three times at most and as long as this helps; then twice the phases with
+    both take half of the steps, three times at most and as long as this can help; then twice the phases with
     steps halved once and twice. All runs together take less than thirty times as long as the first.
     A life that a new mate has only just prolonged is as uncertain as the time since.
 
@@ -109,18 +109,24 @@ def advance_resting(
         order = next(tried)
         report = part_of(progress, 1.0 - _KEPT**order, 1.0 - _KEPT ** (order + 1))
         run, other = run_together([(problem.on(contact), level), (problem.on(coarse), level - 1)], report)
-        error = _SAFETY * difference(run, other) + _AT_LEAST / 2.0**level
-        return run, spared(run, problem.depth_limit, error)
+        return run, _SAFETY * difference(run, other) + _AT_LEAST / 2.0**level
+
+    def bound(run: RestingTrajectory, error: float) -> float:
+        return spared(run, problem.depth_limit, error)
 
     run, error = run_at(contact, 0)
     for candidate, levels in ((contact, _LEVELS), (finer, _REFINED_LEVELS)):
         for level in levels:
-            if error <= life_tolerance or candidate is None:
+            if bound(run, error) <= life_tolerance or candidate is None:
                 break
             better, left = run_at(candidate, level)
-            if left >= error:
+            if bound(better, left) >= bound(run, error):
                 # Halved steps help no more.
                 break
+            gained = error - left
             run, error = better, left
+            if bound(run, error - gained) > life_tolerance:
+                # All further halvings together gain at most as much again.
+                break
     progress(1.0)
-    return run, error
+    return run, bound(run, error)
