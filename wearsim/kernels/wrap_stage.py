@@ -178,7 +178,11 @@ def add_work(
     works: Vector,
     sums: Vector,
 ) -> None:
-    """Add what the pressures of some rollers wear off, or take it back by a negative sign."""
+    """Add what the pressures of some rollers wear off, or take it back by a negative sign.
+
+    What a cell that presses in part loses is shared with its neighbour, so that it is taken off about the
+    middle of that part: contacts would widen to whole cells else.
+    """
     bodies, exponent, masses = outlines.shape[0] // OUTLINES, numbers[EXPONENT], sums[_MASSES]
     events = seats.shape[1] // blocks.shape[0]
     for event in range(begin, end):
@@ -190,9 +194,22 @@ def add_work(
         width, pressure = outlines[OUTLINE_WIDTH * bodies + body], pressures[event]
         part = pressures[seats.shape[1] + event]
         for j in range(first, last):
+            masses[j] = 0.0
+        for j in range(first, last):
             p = pressure[j]
-            rubs = p if exponent == 1.0 or not p > 0.0 else part[j] * (p / part[j]) ** exponent
-            masses[j] = sign * worn * rubs * width[j] if p > 0.0 else 0.0
+            if not p > 0.0:
+                continue
+            mass = sign * worn * width[j] * (p if exponent == 1.0 else part[j] * (p / part[j]) ** exponent)
+            # Of a cell that presses in part the middle of the part is on the side of the pressed neighbour.
+            before = part[j - 1] if j > first else 0.0
+            after = part[j + 1] if j + 1 < last else 0.0
+            beside = after + before
+            aside = 0.5 * (1.0 - part[j]) * (after - before) / beside if beside > 0.0 else 0.0
+            masses[j] += mass * (1.0 - abs(aside))
+            if aside > 0.0:
+                masses[j + 1] += mass * aside
+            elif aside < 0.0:
+                masses[j - 1] -= mass * aside
         spread(first, last, seats[BEFORE, event], seats[AFTER, event], unworn, works[body], sums)
 
 
