@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from wearsim.kernels import wrap_seats, wrap_stage
 from wearsim.kernels.wrap_seats import foundation_force
 
 COMPLIANCE = 2e-6
@@ -93,3 +94,25 @@ def test_force_is_the_slope_of_the_energy():
             assert slope == pytest.approx(
                 stiffness[axis], rel=0.02, abs=2e-3 * float(np.abs(stiffness).max())
             )
+
+
+@pytest.mark.parametrize(("left", "right"), [(1.0, 1.0), (0.4, 1.0), (0.25, 0.7), (1.0, 0.01)])
+def test_wear_lies_where_the_contact_presses(left, right):
+    """Uniform pressure that ends within cells: area and centre of gravity are those of the rectangle."""
+    cells, first, last, spacing = 12, 4, 8, 0.5
+    part = np.zeros(cells)
+    part[first:last] = 1.0
+    part[first], part[last - 1] = left, right
+    seats, numbers = np.zeros((wrap_seats.SEAT_ROWS, 1)), np.zeros(wrap_stage.STAGE_NUMBERS)
+    seats[[wrap_seats.FIRST, wrap_seats.LAST, wrap_seats.SLIP], 0] = first, last, 2.0
+    numbers[[wrap_stage.RATE_FACTOR, wrap_stage.EXPONENT]] = 1e-3, 1.0
+    blocks, works = np.zeros((1, wrap_stage.BLOCK_ROWS)), np.zeros((1, cells))
+    blocks[0, wrap_stage.COUNT] = 1.0
+    unworn, outlines = np.full((6, cells), spacing), np.full((wrap_stage.OUTLINES, cells), spacing)
+    pressures, sums = np.array([100.0 * part, part]), np.zeros((5, cells + 1))
+    tables = blocks, seats, numbers, unworn, pressures, outlines, works, sums
+    wrap_stage.add_work(0, 1, 1.0, 1, 1, *tables)
+    begin, end = first + 1.0 - left, last - 1.0 + right
+    assert works.sum() == pytest.approx(0.2 * (end - begin), rel=1e-12)
+    centre = works[0] @ (np.arange(cells) + 0.5) / works.sum()
+    assert centre == pytest.approx(0.5 * (begin + end), rel=1e-12)
