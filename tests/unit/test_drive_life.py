@@ -210,3 +210,63 @@ def test_a_new_chain_comes_lubricated(running_in):
         changes = chain_changes(result)
         assert changes == pytest.approx(life * (1.0 + np.arange(changes.size)), rel=1e-6) and changes.size > 1
     assert any("new chain come lubricated" in text for text in found.drive.assumptions)
+
+
+EQUAL = {
+    "format_version": 1,
+    "chain": {"designation": "08B-1"},
+    "sprocket": [
+        {"teeth": 19, "profile": "iso606", "nodes": 31},
+        {"teeth": 19, "profile": "iso606", "nodes": 31},
+    ],
+    "drive": {"links": 100},
+    "load": {"power_kW": 1, "speed_rpm": 300},
+    "wear": {"condition": "hardened, oiled"},
+    "mechanism": {"phases": 2},
+    "run": {"horizon_hours": 20_000},
+}
+
+
+def _roles_run(monkeypatch) -> list[str]:
+    """Roles of the sprockets that are run."""
+    roles: list[str] = []
+    run = life.simulate
+
+    def counted(case, report):
+        roles.append(case.inputs["sprocket"]["role"])
+        return run(case, report)
+
+    monkeypatch.setattr(life, "simulate", counted)
+    return roles
+
+
+def test_sprockets_that_wear_alike_are_run_once(monkeypatch):
+    """Without friction the driven sprocket is the mirrored driver: alone, each comes to the same bits."""
+    drive, progress = load_drive(EQUAL), []
+    alone = {one.name: life.simulate(one.case) for one in drive.sprockets}
+    roles = _roles_run(monkeypatch)
+    together = drive_life(drive, progress.append)
+    assert roles == ["driver"]
+    assert progress[-1] == 1.0
+    assert list(together.results) == ["driver", "driven"]
+    for name, one in together.results.items():
+        assert one.inputs["sprocket"]["role"] == name
+        assert one.summary() == alone[name].summary()
+        np.testing.assert_array_equal(
+            one.history_columns["max_depth_mm"], alone[name].history_columns["max_depth_mm"]
+        )
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"mechanism": {"phases": 2, "friction_roller_tooth": 0.05, "friction_roller_bush": 0.15}},
+        {"sprocket": [{"teeth": 19, "profile": "iso606", "nodes": nodes} for nodes in (31, 33)]},
+        {"sprocket": [{"teeth": teeth, "profile": "iso606", "nodes": 31} for teeth in (19, 20)]},
+    ],
+    ids=["friction", "nodes", "teeth"],
+)
+def test_others_are_run_each(monkeypatch, changes):
+    roles = _roles_run(monkeypatch)
+    drive_life(load_drive({**EQUAL, **changes}))
+    assert sorted(roles) == ["driven", "driver"]

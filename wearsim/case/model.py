@@ -77,6 +77,10 @@ class Drive:
         """Keys that, beside these coefficients, say how those parts wear."""
         return {}
 
+    def alike(self, case: "Case") -> "Case":
+        """Return the case that stands for all that wear as this one does, number by number."""
+        return case
+
     def wear_band(self, part: str, wear: "WearInput") -> "WearBand":
         """Return the band of the coefficient that ends the life of a part."""
         return WearBand(wear.low, wear.high, wear.band)

@@ -3,7 +3,7 @@
 import math
 import os
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 
 from wearsim.drive.drive_case import DriveCase, DriveSprocket
@@ -11,6 +11,7 @@ from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.part_life import simulate
 from wearsim.errors import ContactError, ConvergenceError, WearsimError
 from wearsim.result import WearResult
+from wearsim.result.kept_runs import case_content, of_case
 
 
 class _GivenUpError(Exception):
@@ -23,7 +24,8 @@ def drive_life(
     """Wear all sprockets of a drive, each with the chains that run on it.
 
     The chain grows by its joints alone, at all sprockets: every sprocket meets the same chains at the
-    same times, and each is worn on its own. Where the run of one fails the others go on.
+    same times, and each is worn on its own, those that wear alike once. Where the run of one fails the
+    others go on.
 
     Parameters
     ----------
@@ -44,7 +46,8 @@ def drive_life(
     WearsimError
         As `wearsim.simulate` does for the case of a sprocket, where no run comes to its end.
     """
-    done = dict.fromkeys((one.name for one in drive.sprockets), 0.0)
+    groups = _alike(drive.sprockets)
+    done = dict.fromkeys((first.name for first, *_ in groups), 0.0)
     lock, given_up = threading.Lock(), threading.Event()
 
     def _watch(name: str) -> Callable[[float], None]:
@@ -67,13 +70,31 @@ def drive_life(
             return error
 
     with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
-        runs = {one.name: pool.submit(_run, one) for one in drive.sprockets}
+        runs = [pool.submit(_run, first) for first, *_ in groups]
         try:
-            ended, _ = wait(runs.values(), return_when=FIRST_EXCEPTION)
+            ended, _ = wait(runs, return_when=FIRST_EXCEPTION)
         finally:
             given_up.set()  # the user has stopped them
-        ends = {name: run.result() for name, run in runs.items() if run in ended}
-    results = {name: end for name, end in ends.items() if isinstance(end, WearResult)}
-    failed = {name: end for name, end in ends.items() if isinstance(end, WearsimError)}
+        ends = [(group, run.result()) for group, run in zip(groups, runs, strict=True) if run in ended]
+    of_wheel = {one.name: _end_of(one, end) for group, end in ends for one in group}
+    in_order = {one.name: of_wheel[one.name] for one in drive.sprockets if one.name in of_wheel}
+    results = {name: end for name, end in in_order.items() if isinstance(end, WearResult)}
+    failed = {name: end for name, end in in_order.items() if isinstance(end, WearsimError)}
     found = DriveLife(drive, results, failed)
     return found if results else found.complete()
+
+
+def _alike(sprockets: Sequence[DriveSprocket]) -> list[list[DriveSprocket]]:
+    """Return the sprockets, those together that wear alike: one run tells the lives of all."""
+    groups: dict[bytes, list[DriveSprocket]] = {}
+    for one in sprockets:
+        try:
+            content = case_content(one.case)
+        except TypeError:  # of what a user has made there is no hash
+            content = one.name.encode()
+        groups.setdefault(content, []).append(one)
+    return list(groups.values())
+
+
+def _end_of(one: DriveSprocket, end: WearResult | WearsimError) -> WearResult | WearsimError:
+    return of_case(end, one.case) if isinstance(end, WearResult) else end

@@ -11,7 +11,7 @@ import json
 import os
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -89,15 +89,34 @@ def kept_or_run(case: Case, run: Callable[[], WearResult]) -> WearResult:
 
 
 def content_hash(case: Case) -> str:
-    """Return the hash of a case number by number, and of what else its run depends on.
+    """Return the hash of a case and of what else its run depends on.
 
     Raises `TypeError` where a case holds what has no hash.
     """
-    digest = hashlib.sha256(_program())
-    for field in fields(case):
+    return hashlib.sha256(_program() + case_content(case)).hexdigest()[:32]
+
+
+def case_content(case: Case) -> bytes:
+    """Return the hash of a case number by number: alike for all that wear alike.
+
+    Raises `TypeError` where a case holds what has no hash.
+    """
+    digest, stands = hashlib.sha256(), case.drive.alike(case)
+    for field in fields(stands):
         if field.name not in _NOT_ITS_CONTENT:
-            _add(digest.update, (field.name, getattr(case, field.name)))
-    return digest.hexdigest()[:32]
+            _add(digest.update, (field.name, getattr(stands, field.name)))
+    return digest.digest()
+
+
+def of_case(result: WearResult, case: Case) -> WearResult:
+    """Return the result of a case that wears alike as that of this one."""
+    return replace(
+        result,
+        case=case.name,
+        title=case.title,
+        inputs=with_files(case.inputs, ""),
+        input_files=case.input_files,
+    )
 
 
 @cache
@@ -179,8 +198,7 @@ def _read(file: Path, key: str, case: Case) -> WearResult | None:
         os.utime(file)
     inputs = with_files(case.inputs, "")
     known = fields_of_result(stored, inputs, case.input_files, tables["history"], tables["flank"])
-    own = {"case": case.name, "title": case.title, "environment": stored["environment"]}
-    return WearResult(**{**known, **own})
+    return of_case(WearResult(**known, environment=stored["environment"]), case)
 
 
 def _limit_size(folder: Path) -> None:

@@ -153,6 +153,13 @@ class WrapDrive(Drive):
         joint = self.joint
         return replace(self, joint=replace(joint, law=joint.law.at(joint.state)))
 
+    def alike(self, case: Case) -> Case:
+        """Return a driven sprocket as a driver: friction alone tells which way round the chain runs."""
+        if self.driver or self.friction_roller_tooth or self.friction_roller_bush:
+            return case
+        sprocket = {**case.inputs["sprocket"], "role": "driver"}
+        return replace(case, drive=replace(self, driver=True), inputs={**case.inputs, "sprocket": sprocket})
+
     def wear_band(self, part: str, wear: WearInput) -> WearBand:
         """Return that of the joints for the chain, that of the teeth for the sprocket."""
         return self.joint.band if part == "chain" else self.joint.tooth_band
