@@ -15,7 +15,7 @@ from scipy.optimize import minimize
 from wearsim.geometry.forms.ansi_b29 import ansi_b29_gap
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels import wrap_equilibrium as kernels
-from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap.wrap_mechanism import StrandTensions, WrapChain, WrapMechanism
 
 PITCH, RADIUS, TEETH, ROLLERS = 12.7, 3.96, 24, 12
 TOLERANCE = 1e-6

@@ -23,7 +23,7 @@ from wearsim.kernels.offset import OFFSET_ROWS, run_offset_cycles
 from wearsim.kernels.per_cycle_loop import CYCLES_ROWS, run_cycles
 from wearsim.kernels.prescribed import prescribed_contact
 from wearsim.kernels.strand import strand_contact
-from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap.wrap_mechanism import StrandTensions, WrapChain, WrapMechanism
 
 STRAND = {
     "format_version": 1,

@@ -22,7 +22,7 @@ from wearsim.mechanisms.gear_pair.contact import GearPairMechanism
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.mechanisms.wrap.contact import RollerSliding, WrapBlock, WrapContact
-from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap.wrap_mechanism import StrandTensions, WrapChain, WrapMechanism
 
 MODULUS = 2.1e5 / (2.0 * 0.91)
 """Contact modulus of steel on steel [MPa]."""

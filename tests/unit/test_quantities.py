@@ -43,7 +43,7 @@ from wearsim.study.judge.sheet import constants_table, forecasts_table, laws_tab
 from wearsim.study.optimise.search_space import SearchSpace
 from wearsim.study.optimise.sheet import candidates_table
 from wearsim.study.optimise.trials import Candidate, OptimiseOutcome
-from wearsim.study.select.model import select
+from wearsim.study.select.ranking import select
 from wearsim.study.select.requirements import DriveRequirements
 from wearsim.study.select.sheet import drives_table
 from wearsim.study.sensitivity.model import KeyEffect

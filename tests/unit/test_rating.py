@@ -6,7 +6,7 @@ import pytest
 
 import wearsim
 from wearsim.catalogue.catalogues import regimes
-from wearsim.chain.selection import RatedDrive, RatingFinding, assess, rating_warnings, warning
+from wearsim.chain.rating_findings import RatedDrive, RatingFinding, assess, rating_warnings, warning
 from wearsim.errors import CaseError
 
 WRAP = {

@@ -12,8 +12,8 @@ from tests.drives import depth_limit
 from wearsim.contact.hertz import half_width, peak_pressure
 from wearsim.contact.resting_engagement import NEW_MATE
 from wearsim.errors import ContactError, ConvergenceError
-from wearsim.kernels import wrap_seats as seats
 from wearsim.kernels import wrap_stage as stage
+from wearsim.kernels import wrap_yielding_seats as seats
 from wearsim.mechanisms.wrap.seating import phases_of_pitch
 from wearsim.wear import settled_run
 from wearsim.wear.implicit_steps import run_resting, run_seated

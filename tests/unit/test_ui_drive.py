@@ -14,12 +14,13 @@ from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
 from wearsim.input.document import CaseText
 from wearsim.page.answer_panel import AnswerPanel
-from wearsim.page.answers import DriveAnswer, drive_headline, taken_inputs
+from wearsim.page.answers import DriveAnswer, taken_inputs
 from wearsim.page.case_file import new_file
 from wearsim.page.edited_input import EditedInput, StaleError
 from wearsim.page.fields import form_fields, value_at
 from wearsim.page.form_panel import FormPanel
 from wearsim.page.toml_source import parsed_tables, shown_values, with_value
+from wearsim.report.drive.drive_words import drive_headline
 
 SHARES = "duty.1.power_share"
 DRIVE = {

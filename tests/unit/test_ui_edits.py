@@ -9,7 +9,7 @@ pytest.importorskip("nicegui", reason="nicegui is not installed")
 from nicegui import Client, ui
 from nicegui.page import page
 
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.rating_findings import RatingFinding
 from wearsim.drive.drive_start import start_text
 from wearsim.drive.load_case import load_case, load_drive
 from wearsim.input.document import CaseText, is_whole_drive

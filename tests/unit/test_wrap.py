@@ -13,7 +13,7 @@ from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.profile_points import Profile
 from wearsim.geometry.roller_path import roller_path
 from wearsim.kernels import wrap_equilibrium as kernels
-from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
+from wearsim.mechanisms.wrap.wrap_mechanism import StrandTensions, WrapChain, WrapMechanism
 
 PITCH, ROLLER = 12.7, 8.51
 FORMS = {

@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from wearsim.kernels import wrap_seats, wrap_stage
-from wearsim.kernels.wrap_seats import foundation_force
+from wearsim.kernels import wrap_stage
+from wearsim.kernels import wrap_yielding_seats as wrap_seats
+from wearsim.kernels.wrap_yielding_seats import foundation_force
 
 COMPLIANCE = 2e-6
 """Compliance of all cells [mm/MPa]."""

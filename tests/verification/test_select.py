@@ -15,21 +15,13 @@ import pytest
 from wearsim.catalogue.catalogues import chains, wear_conditions
 from wearsim.chain.drive_layout import layout_with_links
 from wearsim.chain.power_rating import HORSEPOWER
-from wearsim.chain.selection import RATINGS, overloading
+from wearsim.chain.rating_findings import RATINGS, overloading
 from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS, service_conditions
 from wearsim.chain.span_tension import shaft_load
 from wearsim.errors import CaseError
 from wearsim.study.select.considered_chains import considered_chains
-from wearsim.study.select.model import (
-    CandidateDrive,
-    Price,
-    best_of_each_chain,
-    judged_drives,
-    nearest_miss,
-    ranked,
-    refused_by,
-    select,
-)
+from wearsim.study.select.model import CandidateDrive, Price, judged_drives
+from wearsim.study.select.ranking import best_of_each_chain, nearest_miss, ranked, refused_by, select
 from wearsim.study.select.requirements import DriveRequirements
 
 OILED = wear_conditions()["hardened, oiled"]

@@ -31,7 +31,7 @@ from wearsim.chain.power_rating import (
     strand_factor,
     tooth_factor,
 )
-from wearsim.chain.selection import (
+from wearsim.chain.rating_findings import (
     RATINGS,
     RatedDrive,
     RatingFinding,

@@ -23,7 +23,7 @@ from wearsim.geometry.forms.iso606 import iso606_gap
 from wearsim.geometry.gap import Gap
 from wearsim.geometry.roller_path import roller_path
 from wearsim.geometry.segments import ArcSegment
-from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapLoads, WrapMechanism
+from wearsim.mechanisms.wrap.wrap_mechanism import StrandTensions, WrapChain, WrapLoads, WrapMechanism
 
 Array = NDArray[np.float64]
 

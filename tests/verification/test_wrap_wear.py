@@ -20,7 +20,7 @@ from wearsim.contact.resting_engagement import NEW_MATE, MateWear
 from wearsim.geometry.profile_points import area_between
 from wearsim.kernels import event_rows as kernels
 from wearsim.mechanisms.wrap.contact import WrapContact
-from wearsim.mechanisms.wrap.equilibrium import WrapLoads, WrapMechanism
+from wearsim.mechanisms.wrap.wrap_mechanism import WrapLoads, WrapMechanism
 from wearsim.wear.implicit_steps import RestingTrajectory, run_resting
 from wearsim.wear.law import archard, power
 from wearsim.wear.problem import StartState, WearProblem

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
 
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.rating_findings import RatingFinding
 from wearsim.contact.engagement import ContactKind, Engagement, FlankContact, Mechanism
 from wearsim.contact.stop_limits import LIMITS, StopLimit, deepest, stop_limit
 from wearsim.errors import CaseError, Fault

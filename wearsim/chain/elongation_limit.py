@@ -2,7 +2,7 @@
 
 from wearsim.chain.drive_layout import DriveLayout
 from wearsim.chain.loop_layout import LoopLayout
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.rating_findings import RatingFinding
 
 
 def elongation_limit(teeth: int, adjustable: bool = True) -> float:

@@ -23,7 +23,7 @@ from wearsim.chain.power_rating import (
     strand_factor,
 )
 from wearsim.chain.practice_drive import RATED_ELONGATION, PracticeDrive
-from wearsim.chain.selection import LARGEST_PITCH, rating_note
+from wearsim.chain.rating_findings import LARGEST_PITCH, rating_note
 from wearsim.errors import GeometryError
 
 GOST_HOURS = 10_000.0

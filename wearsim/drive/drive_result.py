@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wearsim.chain.selection import RatingFinding, rating_warnings
+from wearsim.chain.rating_findings import RatingFinding, rating_warnings
 from wearsim.drive.drive_case import DriveCase, said_of_sprockets
 from wearsim.drive.wrap_life import part_band
 from wearsim.errors import WearsimError

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from wearsim.case.model import Case
-from wearsim.chain.selection import rating_warnings
+from wearsim.chain.rating_findings import rating_warnings
 from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit
 from wearsim.drive.history import common_history

@@ -16,7 +16,8 @@ from wearsim.kernels.wrap_equilibrium import (
     engaged,
     same_roller,
 )
-from wearsim.kernels.wrap_seats import (
+from wearsim.kernels.wrap_wear import SPACING, UNWORN_CURVATURE, recede, worn_width
+from wearsim.kernels.wrap_yielding_seats import (
     AFTER,
     BEFORE,
     DRIFT_X,
@@ -33,7 +34,6 @@ from wearsim.kernels.wrap_seats import (
     SPEED,
     seat_rollers,
 )
-from wearsim.kernels.wrap_wear import SPACING, UNWORN_CURVATURE, recede, worn_width
 
 if TYPE_CHECKING:
     from wearsim.jit.signatures import Vector

@@ -7,7 +7,7 @@ from markupsafe import Markup
 from nicegui import ui
 
 from wearsim.case.model import Case
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.rating_findings import RatingFinding
 from wearsim.page.answers import DriveAnswer, FirstLooks, Pictures, Rows, SprocketAnswer, Words, answer_to
 from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, Drawing

@@ -7,7 +7,7 @@ from typing import Any
 from markupsafe import Markup
 
 from wearsim.case.model import Case
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.rating_findings import RatingFinding
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.life import drive_life
@@ -22,6 +22,7 @@ from wearsim.report.answer import OVERLOADED, chain_findings, ending, headline, 
 from wearsim.report.drive.drive_drawings import flank_place, layout_sketch, lives_bars
 from wearsim.report.drive.drive_words import (
     band_text,
+    drive_headline,
     first_text,
     part_findings,
     ratings_text,
@@ -34,7 +35,7 @@ from wearsim.report.html.margins import Margin, margins
 from wearsim.report.html.run_charts import along_chart, history_chart, tooth_load_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts, worn_out_chart
-from wearsim.report.text_lines import listed, stated_and_defaults, unbroken
+from wearsim.report.text_lines import stated_and_defaults, unbroken
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.result.ends import first_hours
 from wearsim.result.lives import hours
@@ -268,14 +269,6 @@ class DriveAnswer:
             places={flank_place(number): name for number, name in named if name in found.results},
             bars=lives_bars(drive_plan(found)),
         )
-
-
-def drive_headline(found: DriveLife) -> str:
-    """Return when something is replaced first and what, with the word where the drive is overloaded."""
-    text = first_hours(found.ends, found.life) + (f", {found.first} first" if found.first else "")
-    if found.failed:
-        text += f", nothing known of {listed(list(found.failed))}"
-    return f"{text} (overloaded)" if found.overloaded else text
 
 
 def taken_inputs(drive: DriveCase) -> dict[str, Any]:

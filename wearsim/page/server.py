@@ -15,7 +15,7 @@ from wearsim.drive.part_life import simulate
 from wearsim.errors import WearsimError
 from wearsim.input.document import CaseText
 from wearsim.page.case_file import CaseFile
-from wearsim.page.editor import CasePage
+from wearsim.page.case_page import CasePage
 from wearsim.page.request_guard import Guard
 
 _RECONNECT = 3600.0

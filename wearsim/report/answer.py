@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wearsim.chain.power_rating import RATED_HOURS
-from wearsim.chain.selection import RatingFinding, rated_for_hours
+from wearsim.chain.rating_findings import RatingFinding, rated_for_hours
 from wearsim.contact.stop_limits import LIMITS as STOP_LIMITS
 from wearsim.quantities import DAYS_OF_YEAR, grouped
 from wearsim.report.text_lines import Finding, answer_text, counted_assumptions, numbered_assumptions, row

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.case.model import Case
-from wearsim.chain.selection import rating_warnings
+from wearsim.chain.rating_findings import rating_warnings
 from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.drive.drive_case import DriveCase
 from wearsim.report.answer_table import table_of

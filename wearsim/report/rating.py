@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from wearsim.case.model import Case
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.rating_findings import RatingFinding
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wearsim.chain.power_rating import IMPACT_BAND, NO_MORE_HOURS, RATED_HOURS
-from wearsim.chain.selection import RATINGS, Rating, RatingFinding
+from wearsim.chain.rating_findings import RATINGS, Rating, RatingFinding
 from wearsim.quantities import grouped
 from wearsim.result.lives import Life, LowerBound, hours
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.rating_findings import RatingFinding
 from wearsim.errors import OutputError
 from wearsim.extras import library
 from wearsim.files import new_folder

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim._version import __version__
-from wearsim.chain.selection import RatingFinding, overloading
+from wearsim.chain.rating_findings import RatingFinding, overloading
 from wearsim.errors import WearsimError
 from wearsim.geometry.profile_points import Vector
 from wearsim.jit.compiled import source_hash

@@ -16,7 +16,8 @@ from wearsim.case.keys.drive_tables import (
     SprocketTable,
     TakeUpTable,
 )
-from wearsim.case.keys.study_tables import MaintenanceTable, OptimiseTable, ServiceTable, Uncertainty
+from wearsim.case.keys.maintenance_table import MaintenanceTable
+from wearsim.case.keys.study_tables import OptimiseTable, ServiceTable, Uncertainty
 from wearsim.case.keys.wear_tables import (
     FilmTable,
     MaterialsTable,

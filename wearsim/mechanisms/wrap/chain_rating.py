@@ -7,7 +7,7 @@ from dataclasses import replace
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings, polygon_effect
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.power_rating import hours_over_duty
-from wearsim.chain.selection import RATINGS, RatedDrive, RatingFinding, assess
+from wearsim.chain.rating_findings import RATINGS, RatedDrive, RatingFinding, assess
 
 RatedLoad = tuple[str, RatedDrive]
 """A load in words, empty where it is the only one, and what the ratings need to know under it."""

@@ -24,7 +24,7 @@ from wearsim.kernels.wrap_cycle import (
     wrap_events,
 )
 from wearsim.kernels.wrap_equilibrium import JUMPED, SEATED, WORK_ROWS
-from wearsim.mechanisms.wrap.equilibrium import WrapMechanism, jumped, stuck
+from wearsim.mechanisms.wrap.wrap_mechanism import WrapMechanism, jumped, stuck
 
 Rows = NDArray[np.float64]
 

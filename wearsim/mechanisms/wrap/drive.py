@@ -18,7 +18,7 @@ from wearsim.chain.joint_wear import JointLaw, JointState, elongation_per_loop
 from wearsim.chain.loop_forces import LoopForces
 from wearsim.chain.loop_layout import LoopLayout
 from wearsim.chain.practice_drive import MOST_STRANDS, PracticeDrive
-from wearsim.chain.selection import RatedDrive, RatingFinding, overload_fault
+from wearsim.chain.rating_findings import RatedDrive, RatingFinding, overload_fault
 from wearsim.chain.service_conditions import LUBRICATIONS
 from wearsim.contact.stop_limits import StopLimit, stop_limit
 from wearsim.errors import CaseError, Fault
@@ -41,7 +41,7 @@ from wearsim.mechanisms.wrap.chain_rating import (
 
 if TYPE_CHECKING:
     from wearsim.mechanisms.wrap.contact import WrapContact
-    from wearsim.mechanisms.wrap.equilibrium import WrapMechanism
+    from wearsim.mechanisms.wrap.wrap_mechanism import WrapMechanism
 
 
 LIGHT_CHAIN = "085-1"
@@ -269,7 +269,7 @@ class WrapDrive(Drive):
     @cached_property
     def rollers(self) -> "WrapMechanism":
         """The rollers of the chain on the gaps that they wrap, without what wears them."""
-        from wearsim.mechanisms.wrap.equilibrium import StrandTensions, WrapChain, WrapMechanism
+        from wearsim.mechanisms.wrap.wrap_mechanism import StrandTensions, WrapChain, WrapMechanism
 
         radius = 0.5 * self.chain.roller_diameter
         return WrapMechanism(

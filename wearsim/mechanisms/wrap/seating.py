@@ -23,22 +23,6 @@ from wearsim.kernels.event_rows import (
     EVENT_TOUCHED,
 )
 from wearsim.kernels.wrap_equilibrium import CONSTANTS, SEATED
-from wearsim.kernels.wrap_seats import (
-    CELL_ROWS,
-    DRIFT_X,
-    DRIFT_Y,
-    HALF_WIDTH,
-    LOAD_X,
-    LOAD_Y,
-    NEAREST,
-    PLACE,
-    SEAT_ROWS,
-    SEAT_WORK_ROWS,
-    SEAT_X,
-    SEAT_Y,
-    SLIP,
-    SPEED,
-)
 from wearsim.kernels.wrap_stage import (
     AHEAD,
     ARTICULATION_SLIP,
@@ -63,7 +47,23 @@ from wearsim.kernels.wrap_stage import (
     WRAP_ANGLE,
     implicit_stage,
 )
-from wearsim.mechanisms.wrap.equilibrium import stuck
+from wearsim.kernels.wrap_yielding_seats import (
+    CELL_ROWS,
+    DRIFT_X,
+    DRIFT_Y,
+    HALF_WIDTH,
+    LOAD_X,
+    LOAD_Y,
+    NEAREST,
+    PLACE,
+    SEAT_ROWS,
+    SEAT_WORK_ROWS,
+    SEAT_X,
+    SEAT_Y,
+    SLIP,
+    SPEED,
+)
+from wearsim.mechanisms.wrap.wrap_mechanism import stuck
 
 if TYPE_CHECKING:
     from wearsim.mechanisms.wrap.contact import WrapContact

@@ -6,7 +6,7 @@ import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.mechanisms.wrap.drive import wrap_drive
-from wearsim.mechanisms.wrap.equilibrium import WrapLoads
+from wearsim.mechanisms.wrap.wrap_mechanism import WrapLoads
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from wearsim.chain.selection import deciding, rated_for_hours
+from wearsim.chain.rating_findings import deciding, rated_for_hours
 from wearsim.drive.drive_case import said_of_sprockets
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan, planned_events
@@ -22,7 +22,7 @@ from wearsim.report.answer import (
 from wearsim.report.drive.plan_words import ordinal
 from wearsim.report.text_lines import Finding, listed, stated_and_defaults
 from wearsim.result import Life, LowerBound, WearResult
-from wearsim.result.ends import CHAIN, before_wear
+from wearsim.result.ends import CHAIN, before_wear, first_hours
 from wearsim.result.lives import hours, service_measures
 from wearsim.result.second_opinions import practice_text
 
@@ -192,6 +192,14 @@ def _sprocket_ending(result: WearResult) -> str:
     if result.stop in ("critical_depth_mm", "elongation_percent"):
         return f"worn by {result.max_depth:.3g} mm"
     return ending(result)
+
+
+def drive_headline(found: DriveLife) -> str:
+    """Return when something is replaced first and what, with the word where the drive is overloaded."""
+    text = first_hours(found.ends, found.life) + (f", {found.first} first" if found.first else "")
+    if found.failed:
+        text += f", nothing known of {listed(list(found.failed))}"
+    return f"{text} (overloaded)" if found.overloaded else text
 
 
 def first_text(plan: DrivePlan) -> str:

@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 from wearsim._version import __version__
 from wearsim.case.model import Case
-from wearsim.chain.selection import RatingFinding
+from wearsim.chain.rating_findings import RatingFinding
 from wearsim.citation import apa
 from wearsim.quantities import grouped, percentile_meaning, percentile_name, percentile_shares
 from wearsim.report.answer import ending, overload_text, page_findings

@@ -9,7 +9,7 @@ from wearsim.input.document import CaseSource, read_document
 from wearsim.runner.scaled_percentiles import check_no_running_in
 from wearsim.runner.scatter import plain_document, with_whole_paths
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
-from wearsim.study.calibrate.case_fit import CaseFit
+from wearsim.study.calibrate.coefficient_fit import CaseFit
 from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.reading_checks import check_of_chain, check_readings
 from wearsim.study.calibrate.readings import read_readings

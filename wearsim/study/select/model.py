@@ -1,7 +1,7 @@
-"""Drives of all chains and teeth that may be used: their ratings, their lives by wear and their rank."""
+"""Drives of all chains and teeth that may be used: their ratings, and their lives by wear."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -10,14 +10,13 @@ from wearsim.catalogue.catalogues import Chain, materials
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links, least_centre
 from wearsim.chain.elongation_limit import elongation_limit
 from wearsim.chain.joint_wear import JointState, elongation_per_loop, joint_band, joint_law
-from wearsim.chain.selection import RatedDrive, RatingFinding, assess, deciding
+from wearsim.chain.rating_findings import RatedDrive, RatingFinding, assess, deciding
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension, shaft_load
 from wearsim.chain.standard_teeth import standard_tip_diameter
 from wearsim.errors import GeometryError
 from wearsim.lubrication.lubrication_life_factor import lubrication_life_factor
 from wearsim.lubrication.recommended import recommended_lubrication
 from wearsim.mechanisms.wrap.drive import LIGHT_CHAIN
-from wearsim.study.select.considered_chains import considered_chains
 from wearsim.study.select.requirements import DriveRequirements
 
 CENTRE_IN_PITCHES = 40.0
@@ -99,50 +98,6 @@ class CandidateDrive:
         """The rating that leaves least, of those that decide."""
         return max(deciding(self.findings), key=lambda finding: finding.used)
 
-    @property
-    def rank(self) -> tuple[float, int, int, str]:
-        """What drives are ordered by: cost where prices are given, else mass; teeth; chain."""
-        teeth = sorted((self.layout.teeth_1, self.layout.teeth_2))
-        return (self.mass if self.cost is None else self.cost, teeth[0], teeth[1], self.chain.designation)
-
-
-def select(need: DriveRequirements, prices: Mapping[str, Price] | None = None) -> tuple[CandidateDrive, ...]:
-    """Return the drives that keep to all limits, the cheapest or lightest one first.
-
-    Parameters
-    ----------
-    need : DriveRequirements
-        What the drive is to do, and what may be used for it.
-    prices : mapping, optional
-        Prices by designation: only those chains are considered, and the cheapest drive comes first.
-
-    Returns
-    -------
-    tuple of CandidateDrive
-        Every pair of teeth of every chain that passes; empty where none does.
-
-    Examples
-    --------
-    >>> need = DriveRequirements(power=3.0, speed=120.0, ratio=2.7, hours=15_000.0, series=("A",))
-    >>> best = select(need)[0]
-    >>> best.chain.designation, best.layout.teeth_1, best.layout.teeth_2
-    ('10A-3', 18, 48)
-    """
-    return ranked(judged_drives(need, considered_chains(need, prices).chains, prices))
-
-
-def ranked(drives: Iterable[CandidateDrive]) -> tuple[CandidateDrive, ...]:
-    """Return the drives that pass in their order."""
-    return tuple(sorted((one for one in drives if not one.refusals), key=lambda one: one.rank))
-
-
-def best_of_each_chain(ranking: Iterable[CandidateDrive]) -> tuple[CandidateDrive, ...]:
-    """Return of drives in their order the first one of every chain."""
-    found: dict[str, CandidateDrive] = {}
-    for one in ranking:
-        found.setdefault(one.chain.designation, one)
-    return tuple(found.values())
-
 
 def judged_drives(
     need: DriveRequirements, considered: Sequence[Chain], prices: Mapping[str, Price] | None = None
@@ -150,23 +105,6 @@ def judged_drives(
     """Return all drives of some chains, those that are refused with the limits that refuse them."""
     pairs = tuple(need.tooth_pairs())
     return tuple(_judged(need, chain, pair, prices) for chain, pair in product(considered, pairs))
-
-
-def refused_by(drives: Iterable[CandidateDrive]) -> dict[str, int]:
-    """Return how many drives each limit refuses, the one that refuses most first."""
-    counts: dict[str, int] = {}
-    for one in drives:
-        for refusal in one.refusals:
-            counts[refusal.limit] = counts.get(refusal.limit, 0) + 1
-    return dict(sorted(counts.items(), key=lambda entry: -entry[1]))
-
-
-def nearest_miss(drives: Iterable[CandidateDrive]) -> CandidateDrive | None:
-    """Return the refused drive that is beyond its limits by the least part; None where there is none."""
-    refused = (one for one in drives if one.refusals)
-    return min(
-        refused, key=lambda one: (max(refusal.used for refusal in one.refusals), one.rank), default=None
-    )
 
 
 def drive_mass(chain: Chain, layout: DriveLayout) -> tuple[float, float]:

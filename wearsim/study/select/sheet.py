@@ -11,16 +11,8 @@ from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column
 from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
 from wearsim.study.select.considered_chains import ConsideredChains, considered_chains
-from wearsim.study.select.model import (
-    LEAST_WRAP,
-    SAG,
-    CandidateDrive,
-    best_of_each_chain,
-    judged_drives,
-    nearest_miss,
-    ranked,
-    refused_by,
-)
+from wearsim.study.select.model import LEAST_WRAP, SAG, CandidateDrive, judged_drives
+from wearsim.study.select.ranking import best_of_each_chain, nearest_miss, ranked, refused_by
 from wearsim.study.select.requirements import MOST_TEETH, DriveRequirements
 from wearsim.study.select.wish import Wish
 
