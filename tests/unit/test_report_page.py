@@ -207,7 +207,7 @@ def test_jumping_reads_as_safe_or_not(goes_on):
         last = margins(told, case)[-1]
         found.append((last.name, last.value, last.limit, last.unit))
     assert found == [
-        ("jumping: no risk", "below 0.05", "50", "N"),
+        ("jumping: no risk", "below 0.5", "50", "N"),
         ("jumping: no risk", "10", "50", "N"),
         ("jumping: 25 % above what is needed", "40", "50", "N"),
         ("jumping: no margin", "50", "50", "N"),

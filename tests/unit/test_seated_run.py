@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ from wearsim.wear.law import archard, drozdov, power
 from wearsim.wear.problem import WearProblem
 from wearsim.wear.resting_bodies import WornBodies
 from wearsim.wear.seated_bodies import SeatedBodies
-from wearsim.wear.settled_run import advance_resting, run_together, spared
+from wearsim.wear.settled_run import advance_resting, outlives, run_together, spared
 
 TABLES = {
     "format_version": 1,
@@ -292,41 +293,58 @@ def test_one_failing_run_fails_all_and_progress_rises():
 def test_steps_are_halved_where_the_error_asks_for_it():
     of, told = contact(), []
     loose, error = advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.1)
-    tight, less = advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.5 * error, progress=told.append)
+    tight, less = advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.8 * error, progress=told.append)
     assert told == sorted(told) and (told[0], told[-1]) == (0.0, 1.0)
     assert error <= 0.1 and tight.updates > 1.5 * loose.updates
     assert life(tight) == pytest.approx(life(loose), rel=error + less)
 
 
 @pytest.mark.parametrize(
-    ("halved", "asked_first"),
-    [((0.05, 0.055), [(1, 0), (1, 1), (1, 2)]), ((0.08, 0.01), [(1, 0), (1, 1)])],
+    ("halved", "finer_first"),
+    [((0.05, 0.055), [(1, 0), (1, 1)]), ((0.08, 0.01), [(1, 0)])],
     ids=["they stop helping", "as much again would not do"],
 )
-def test_phases_are_doubled_where_halved_steps_do_not_help(monkeypatch, halved, asked_first):
-    """The errors that runs state stand for runs here: phases and halvings, until 0.02 or nothing is left."""
+def test_phases_are_doubled_where_halved_steps_do_not_help(monkeypatch, halved, finer_first):
+    """Errors by phases and halvings stand for runs; coarse ones go ahead, until 0.02 or nothing is left."""
     stated = {(1, 0): 0.09, (1, 1): halved[0], (1, 2): halved[1], (2, 1): 0.03, (2, 2): 0.01}
-    of, asked = contact("mechanism.phases=2"), []
+    of, finer = contact("mechanism.phases=2"), []
 
-    def pair(problems, *rest):
-        (fine, level), (coarse, below) = ((problem.contact, steps) for problem, steps in problems)
-        asked.append((fine.phases // 2, level))
-        assert (coarse.phases, below) == (max(1, fine.phases // 2), level - 1)
-        return [stated[asked[-1]], 0.0]
+    def alone(problem, level, watch):
+        watch(1.0)
+        phases, fine = problem.contact.phases, problem.contact.profile.x.size == of.profile.x.size
+        if fine:
+            finer.append((phases // 2, level))
+        return SimpleNamespace(met="a limit", stated=(phases // 2, level) if fine else (phases, level + 1))
 
-    monkeypatch.setattr(settled_run, "run_together", pair)
+    def together(problems, report):
+        return [alone(problem, level, report) for problem, level in problems]
+
+    monkeypatch.setattr(settled_run, "run_together", together)
+    monkeypatch.setattr(settled_run, "run_seated", alone)
     monkeypatch.setattr(settled_run, "_SAFETY", 1.0)
     monkeypatch.setattr(settled_run, "_AT_LEAST", 0.0)
-    monkeypatch.setattr(settled_run, "difference", lambda run, coarse: run)
+    monkeypatch.setattr(settled_run, "difference", lambda run, coarse: stated[coarse.stated])
     monkeypatch.setattr(settled_run, "spared", lambda run, limit, error: error)
-    assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.02) == (0.01, 0.01)
-    assert asked == [*asked_first, (2, 1), (2, 2)]
-    asked.clear()
-    assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.035) == (0.03, 0.03)
-    assert asked == [*asked_first, (2, 1)]
-    asked.clear()
-    assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.09) == (0.09, 0.09)
-    assert asked == [(1, 0)]
+    for tolerance, finer_then, error in ((0.02, [(2, 1), (2, 2)], 0.01), (0.035, [(2, 1)], 0.03)):
+        told = []
+        run, left = advance_resting(WearProblem(of, LAW, LIMIT, 1e12), tolerance, told.append)
+        assert finer == [*finer_first, *finer_then]
+        assert (run.stated, left) == (finer[-1], error)
+        assert told == sorted(told) and told[-1] == 1.0
+        finer.clear()
+    assert advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.09)[1] == 0.09
+    assert finer == [(1, 0)]
+
+
+def test_a_bound_that_holds_is_not_run_again():
+    """Half of a life: twice the depth would end it. At 0.995 of it a depth that is wrong by 1 % may."""
+    of = contact()
+    whole, error = advance_resting(WearProblem(of, LAW, LIMIT, 1e12), 0.1)
+    for part, again in ((0.5, False), (0.995, True)):
+        problem = WearProblem(of, LAW, LIMIT, part * life(whole))
+        run, left = advance_resting(problem, 0.8 * error)
+        assert outlives(run, LIMIT[0].limit, left) is not again
+        assert (run.updates > 1.5 * run_seated(problem, 0).updates) is again
 
 
 def test_a_life_that_a_new_chain_has_spared_is_uncertain():

@@ -162,6 +162,10 @@ def stop_limit(name: str, limit: float, value: "Callable[[Vector, Vector, Vector
     return StopLimit(name, limit, lambda x, y, depth: limit - value(x, y, depth))
 
 
+FAR_FROM_JUMPING = 100.0
+"""Slack tension over that at which a chain jumps from which on no more is told of this one."""
+
+
 def jump_limit(slack_tension: float) -> StopLimit:
     """Return the stop limit that a chain meets when it jumps on the worn teeth."""
     return StopLimit("min_slack_tension_N", slack_tension, lambda x, y, depth: 0.0)

@@ -132,8 +132,9 @@ class DriveLife:
 
     @property
     def numerical_error(self) -> float:
-        """The greatest of the stated relative errors of the sprockets' lives."""
-        return max(result.numerical_error for result in self.results.values())
+        """The greatest of the stated relative errors of the sprockets' lives; of depths where none ends."""
+        worn = [one for one in self.results.values() if isinstance(one.parts["sprocket"], Life)]
+        return max(result.numerical_error for result in worn or self.results.values())
 
     @property
     def life_tolerance(self) -> float:

@@ -34,7 +34,7 @@ from wearsim.wear.mate_clock import LubricatedClock, MateClock
 from wearsim.wear.problem import Rows, StartState
 from wearsim.wear.resting_bodies import highest_load
 from wearsim.wear.running_in import NO_RUNNING_IN, WearClock
-from wearsim.wear.settled_run import advance_resting
+from wearsim.wear.settled_run import advance_resting, outlives
 from wearsim.wear.trajectory import difference
 
 _FLANKS = 40
@@ -169,7 +169,7 @@ def _run(
         run = run_resting(replace(task, horizon=until), 0, float(cycles), watch)
         error += difference(run, check)
     error *= task.clock.amplification
-    if error > tolerance:
+    if error > tolerance and not outlives(run, task.depth_limit, error):
         warnings.append(
             f"{exceeds(error, tolerance)}, even with steps halved and phases doubled: use more nodes or "
             "phases, or a larger run.life_tolerance"
@@ -303,7 +303,9 @@ def _limits(
 def _smallest_slack_tension(contact: WrapContact, depth: Rows, wear: MateWear) -> float:
     """Slack tension below which the chain jumps on worn gaps [N]."""
     worn = contact.worn_paths(*contact.profile.receded(depth), wear)
-    return contact.heaviest_rollers.smallest_slack_tension(wear.elongation, worn)
+    rollers = contact.heaviest_rollers
+    there = rollers.with_slack(contact.slack_limit) if contact.slack_limit else rollers
+    return there.smallest_slack_tension(wear.elongation, worn)
 
 
 def _tables(

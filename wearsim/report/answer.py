@@ -7,6 +7,7 @@ from typing import Any
 
 from wearsim.chain.power_rating import RATED_HOURS
 from wearsim.chain.rating_findings import RatingFinding, rated_for_hours
+from wearsim.contact.stop_limits import FAR_FROM_JUMPING
 from wearsim.contact.stop_limits import LIMITS as STOP_LIMITS
 from wearsim.quantities import DAYS_OF_YEAR, grouped
 from wearsim.report.text_lines import Finding, answer_text, counted_assumptions, numbered_assumptions, row
@@ -30,8 +31,8 @@ REMOVED = "Removed"
 SAFE = "no risk"
 """What is said of a chain that is far from jumping."""
 
-_FAR, _SAFE = 1000.0, 2.0
-"""Margins of jumping of which no more is told, and from which on a chain is called safe."""
+_SAFE = 2.0
+"""Margin of jumping from which on a chain is called safe."""
 
 _AT_END = "at the end of the life"
 
@@ -93,7 +94,7 @@ def jumping(needed: float, limit: float, whose: str = "there") -> str:
     >>> jumping(5.0, 60.0)
     'jumping: no risk (slack tension: 5 N needed, 60 N there)'
     >>> jumping(4e-6, 60.0)
-    'jumping: no risk (slack tension: below 0.06 N needed, 60 N there)'
+    'jumping: no risk (slack tension: below 0.6 N needed, 60 N there)'
     """
     amount = slack_needed(needed, limit)
     margin = jumping_margin(needed, limit)
@@ -117,7 +118,8 @@ def jumping_margin(needed: float, limit: float) -> str:
 
 def slack_needed(needed: float, limit: float) -> str:
     """Return the slack tension below which a chain jumps, without digits where it is next to none."""
-    return grouped(needed, 3) if needed * _FAR > limit else f"below {grouped(limit / _FAR, 2)}"
+    far = limit / FAR_FROM_JUMPING
+    return grouped(needed, 3) if needed > far else f"below {grouped(far, 2)}"
 
 
 def answer(result: WearResult, source: str, explain: bool = False) -> str:

@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from wearsim.contact.resting_engagement import RestingContact
-from wearsim.wear.implicit_steps import RestingTrajectory, part_of, run_seated
+from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_seated
 from wearsim.wear.problem import WearProblem
 from wearsim.wear.trajectory import difference
 
@@ -18,6 +18,9 @@ _LEVELS, _REFINED_LEVELS = (1, 2, 3), (1, 2)
 
 _KEPT = 0.2
 """Part of the progress still to come that is kept for finer runs, of which nobody knows before."""
+
+_COARSE = 0.1
+"""Part of the time of a run and the coarser one before it that this one takes."""
 
 _SAFETY, _AT_LEAST = 1.5, 5e-3
 """On the error of a run, and what runs that agree by accident may leave, at level 0: with both the stated
@@ -62,6 +65,11 @@ def spared(run: RestingTrajectory, depth_limit: float, error: float) -> float:
     return float((1.0 + error) * run.cycles[-1] / run.cycles[near[0]] - 1.0) if near.size else error
 
 
+def outlives(run: RestingTrajectory, depth_limit: float, error: float) -> bool:
+    """Tell whether a run to its horizon would come there with depths that are wrong by its error, too."""
+    return run.met is None and not run.lost and (1.0 + error) * float(run.depth[-1].max()) < depth_limit
+
+
 def advance_resting(
     problem: WearProblem[RestingContact],
     life_tolerance: float,
@@ -69,11 +77,13 @@ def advance_resting(
 ) -> tuple[RestingTrajectory, float]:
     """Wear outlines and mate until the life is within its tolerance as far as a coarser run tells.
 
-    Beside each run goes one with steps twice as long on half of the points and phases, which takes an eighth
+    Beside each run goes one with steps twice as long on half of the points and phases, which takes a quarter
     of the time. It tells how wrong steps, points and phases together make the life. Where that is too much,
-    both take half of the steps, three times at most and as long as this can help; then twice the phases with
-    steps halved once and twice. All runs together take less than thirty times as long as the first.
-    A life that a new mate has only just prolonged is as uncertain as the time since.
+    both halve their steps, three times at most; then twice the phases with steps halved once and twice. The
+    coarser one goes ahead: where it comes no nearer, or not by half of what is missing, points are what is
+    wrong, and the finer one is spared. All runs together take less than thirty times as long as the first.
+    A life that a new mate has only just prolonged is as uncertain as the time since. Where a run comes to its
+    horizon, and would with depths that are wrong by its error, that holds; the error is that of the depth.
 
     Equation physics.md (W14).
 
@@ -92,7 +102,8 @@ def advance_resting(
     run : RestingTrajectory
         The finest run.
     error : float
-        How wrong its life may be, relative; above the tolerance where none of this helps.
+        How wrong its life may be, relative; above the tolerance where none of this helps. Of a run to its
+        horizon how wrong its depth may be.
 
     Raises
     ------
@@ -101,32 +112,51 @@ def advance_resting(
     ConvergenceError
         No equilibrium of the mates is found.
     """
-    tried, contact, used = itertools.count(), problem.contact, problem.start is not None
+    contact, used = problem.contact, problem.start is not None
     finer = None if used else contact.refined()
+    tried = itertools.count(1)
 
-    def run_at(contact: RestingContact, level: int) -> tuple[RestingTrajectory, float]:
-        coarse = contact if used else contact.coarsened()
-        order = next(tried)
-        report = part_of(progress, 1.0 - _KEPT**order, 1.0 - _KEPT ** (order + 1))
-        run, other = run_together([(problem.on(contact), level), (problem.on(coarse), level - 1)], report)
-        return run, _SAFETY * difference(run, other) + _AT_LEAST / 2.0**level
+    def coarse(contact: RestingContact) -> WearProblem[RestingContact]:
+        return problem.on(contact if used else contact.coarsened())
 
     def bound(run: RestingTrajectory, error: float) -> float:
         return spared(run, problem.depth_limit, error)
 
-    run, error = run_at(contact, 0)
+    def helps(left: float) -> bool:
+        """Whether a finer run with this error gains so much that all others, which gain as much again, do."""
+        further = max(left - (error - left), 0.0)
+        return bound(run, left) < bound(run, error) and bound(run, further) <= life_tolerance
+
+    first = part_of(progress, 0.0, 1.0 - _KEPT)
+    run, other = run_together([(problem.on(contact), 0), (coarse(contact), -1)], first)
+    error = _stated(run, other, 0)
     for candidate, levels in ((contact, _LEVELS), (finer, _REFINED_LEVELS)):
         for level in levels:
-            if bound(run, error) <= life_tolerance or candidate is None:
+            if (
+                bound(run, error) <= life_tolerance
+                or candidate is None
+                or outlives(run, problem.depth_limit, error)
+            ):
                 break
-            better, left = run_at(candidate, level)
+            begin = 1.0 - _KEPT ** next(tried)
+            end = begin + (1.0 - _KEPT) * (1.0 - begin)
+            middle = begin + _COARSE * (end - begin)
+            other = run_seated(
+                coarse(candidate), level - 1, reported_progress(part_of(progress, begin, middle))
+            )
+            if not helps(_stated(run, other, level)):
+                break
+            better = run_seated(
+                problem.on(candidate), level, reported_progress(part_of(progress, middle, end))
+            )
+            left = _stated(better, other, level)
             if bound(better, left) >= bound(run, error):
-                # Halved steps help no more.
                 break
-            gained = error - left
             run, error = better, left
-            if bound(run, error - gained) > life_tolerance:
-                # All further halvings together gain at most as much again.
-                break
     progress(1.0)
     return run, bound(run, error)
+
+
+def _stated(run: RestingTrajectory, other: RestingTrajectory, level: int) -> float:
+    """Return the error of a run that is stated beside a coarser one."""
+    return _SAFETY * difference(run, other) + _AT_LEAST / 2.0**level

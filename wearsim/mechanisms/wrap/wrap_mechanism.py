@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from wearsim.contact.stop_limits import FAR_FROM_JUMPING
 from wearsim.errors import ContactError, JumpError
 from wearsim.geometry.profile_points import Profile, Vector
 from wearsim.geometry.roller_path import RollerPath, WornPath
@@ -287,19 +288,18 @@ class WrapMechanism:
 
     def holds(self, elongation: float, worn: tuple[WornPath, ...] = ()) -> bool:
         """Tell whether the rollers find an equilibrium in every phase."""
-        paths = worn or (self.unworn,)
-        firsts = (0, 1) if self.chain.alternating and elongation > 0.0 else (0,)
-        return all(
-            self._seated(phase, elongation, first, paths[0].locus, paths[-1].locus)
-            for first in firsts
-            for phase in np.linspace(0.0, 1.0, _PHASES)
-        )
+        return all(self._seated(place, elongation, worn) for place in self._places(elongation))
 
-    def _seated(
-        self, phase: float, elongation: float, first: int, even: NDArray[np.float64], odd: NDArray[np.float64]
-    ) -> bool:
+    def _places(self, elongation: float) -> list[tuple[float, int]]:
+        """Return phases and kinds of the first link that together show whether a chain holds."""
+        firsts = (0, 1) if self.chain.alternating and elongation > 0.0 else (0,)
+        return [(phase, first) for first in firsts for phase in np.linspace(0.0, 1.0, _PHASES)]
+
+    def _seated(self, place: tuple[float, int], elongation: float, worn: tuple[WornPath, ...]) -> bool:
         """Tell whether the rollers rest, on a worn path as nearly as wear takes them to."""
-        status, _, work, _, force = self._solve(phase, elongation, first, even, odd)
+        phase, first = place
+        paths = worn or (self.unworn,)
+        status, _, work, _, force = self._solve(phase, elongation, first, paths[0].locus, paths[-1].locus)
         if status == STALLED:
             return bool(residual(force.size, work) <= LOOSEST * self.pull.tight)
         return status == SEATED
@@ -310,24 +310,32 @@ class WrapMechanism:
         return replace(self, pull=replace(self.pull, tight=tight, slack=slack))
 
     def smallest_slack_tension(self, elongation: float, worn: tuple[WornPath, ...] = ()) -> float:
-        """Return the slack tension below which the chain jumps, at the same difference of tensions."""
+        """Return the slack tension below which the chain jumps, at the same difference of tensions.
 
-        def _holding(slack: float) -> bool:
-            return self.with_slack(slack).holds(elongation, worn)
+        To 1 %, and not below a hundredth of the slack tension that there is: so far off nothing jumps. It is
+        that of the phase which jumps first, so the others are only held against it.
+        """
 
-        low = 1e-9 * self.pull.tight
+        def _seated(place: tuple[float, int], slack: float) -> bool:
+            return self.with_slack(slack)._seated(place, elongation, worn)
+
+        low = least = max(self.pull.slack / FAR_FROM_JUMPING, 1e-9 * self.pull.tight)
         high = max(self.pull.tight - self.pull.slack, self.pull.slack)
-        if not _holding(high):
+        if not self.with_slack(high).holds(elongation, worn):
             # A chain that rides high on many teeth may jump where both of its strands are hard pulled.
             high = self.pull.slack
-            if not _holding(high):
+            if not self.with_slack(high).holds(elongation, worn):
                 return math.inf
-        if _holding(low):
-            return low
-        while high > 1.01 * low:
-            middle = math.sqrt(low * high)
-            low, high = (low, middle) if _holding(middle) else (middle, high)
-        return high
+        for place in self._places(elongation):
+            if _seated(place, least):
+                continue
+            below, above = low, high
+            while above > 1.01 * below:
+                middle = math.sqrt(below * above)
+                holds = middle > least and _seated(place, middle)
+                below, above = (below, middle) if holds else (middle, above)
+            least = above
+        return least
 
     def assumptions(self) -> list[str]:
         """Return what this picture takes for granted."""
