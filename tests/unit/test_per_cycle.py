@@ -198,3 +198,12 @@ def test_snapshots_are_some_and_increase() -> None:
 def test_no_slip_or_no_load_is_an_error(contact: FlankContact, match: str) -> None:
     with pytest.raises(ContactError, match=match):
         run_per_cycle(WearProblem(contact, archard(1e-9), (depth_limit(DEPTH),), 1e6), 1)
+
+
+def test_a_long_run_tells_how_far_it_is() -> None:
+    """By blocks of 50 000 updates, whatever the limit that ends it."""
+    told: list[float] = []
+    run = run_per_cycle(WearProblem(reference(), archard(5e-9), (depth_limit(0.2),), 1e12), 1, told.append)
+    assert run.met is not None and run.updates > 100_000
+    assert len(told) > run.updates // 50_000
+    assert told == sorted(told) and 0.0 < told[0] < 0.6 and told[-1] == 1.0

@@ -26,7 +26,7 @@ def simulate(case: Case, progress: Callable[[float], None] = lambda part: None) 
         return kept_or_run(case, lambda: simulate_wrap(case, progress))
     from wearsim.drive.pointwise import simulate_points
 
-    return simulate_points(case)
+    return simulate_points(case, progress)
 
 
 def verify_grid(case: Case) -> "GridStudy":

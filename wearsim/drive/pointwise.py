@@ -1,5 +1,6 @@
 """Lives on mechanisms that load every point of a flank once a cycle: strand and table of loads."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -21,11 +22,11 @@ from wearsim.wear.loop import check_length, run_per_cycle
 from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
 
-def simulate_points(case: Case) -> WearResult:
-    """Wear the flank of a case on a strand or under a table of loads."""
+def simulate_points(case: Case, progress: Callable[[float], None] = lambda part: None) -> WearResult:
+    """Wear the flank of a case on a strand or under a table of loads; cycle by cycle, progress is told."""
     warnings = list(case.warnings)
     new = case.drive.mechanism(case)
-    settled = _settled_life(case, new, warnings)
+    settled = _settled_life(case, new, warnings, progress)
     mechanism, task, run = settled.mechanism, settled.run.task, settled.run.trajectory
     history, flank = _tables(case, mechanism, run)
     warnings += validity(mechanism.contact, history, flank)
@@ -86,13 +87,15 @@ def points_grid_study(case: Case, life_tolerance: float) -> GridStudy:
     return grid_study(case.drive.mechanism(case).contact, lambda grid: wear_task(tight, grid).run()[0])
 
 
-def _settled_life(case: Case, mechanism: Mechanism, warnings: list[str]) -> SettledLife:
+def _settled_life(
+    case: Case, mechanism: Mechanism, warnings: list[str], progress: Callable[[float], None]
+) -> SettledLife:
     """Find the life on points on which it is within its tolerance, or say that it is not."""
     advances = case.run.method == "advance"
     tolerance, levels = case.run.life_tolerance, LEVELS if advances else 0
     search: GridSearch = settle_grid(mechanism, tolerance, levels)
     contacts = next(search)
-    first = FlankRun(wear_task(case, contacts[0]), *_first_run(case, contacts[0], warnings))
+    first = FlankRun(wear_task(case, contacts[0]), *_first_run(case, contacts[0], warnings, progress))
     found: list[FlankRun | None] = [first, *(_run_on(case, other) for other in contacts[1:])]
     while True:
         try:
@@ -105,7 +108,9 @@ def _settled_life(case: Case, mechanism: Mechanism, warnings: list[str]) -> Sett
     return settled
 
 
-def _first_run(case: Case, contact: FlankContact, warnings: list[str]) -> tuple[Trajectory, float]:
+def _first_run(
+    case: Case, contact: FlankContact, warnings: list[str], progress: Callable[[float], None]
+) -> tuple[Trajectory, float]:
     """Return the run of a case on its own points, and the error of its steps."""
     task = wear_task(case, contact)
     if case.run.method == "advance":
@@ -122,7 +127,7 @@ def _first_run(case: Case, contact: FlankContact, warnings: list[str]) -> tuple[
     else:
         expected = task.clock.steady_cycles(float(check.cycles[-1]))
         check_length(task, expected, cycles)
-    run = task.run_in(run_per_cycle(task, cycles))
+    run = task.run_in(run_per_cycle(task, cycles, progress))
     check_fold(contact, run)
     return run, 1.0 if check is None else change + difference(run, check)
 

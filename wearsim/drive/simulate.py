@@ -41,7 +41,8 @@ def simulate(
     case : Case, DriveCase, path or mapping
         One sprocket, a gear pair or a whole drive; which of them a file is, only its answer tells.
     progress : callable, optional
-        Told by a wrap how much of its run is done, from 0 to 1, by a drive how much of all; it only rises.
+        Told by a wrap or a run cycle by cycle how much of it is done, from 0 to 1, by a drive how much of
+        all; it only rises.
 
     Returns
     -------

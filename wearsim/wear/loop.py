@@ -78,7 +78,13 @@ def _compiled_loop(contact: FlankContact) -> tuple[int, Callable[..., int]]:
 class _CycleRun:
     """State of the flank between blocks of compiled updates."""
 
-    def __init__(self, problem: WearProblem[FlankContact], cycles_per_update: int) -> None:
+    def __init__(
+        self,
+        problem: WearProblem[FlankContact],
+        cycles_per_update: int,
+        progress: Callable[[float], None] = lambda part: None,
+    ) -> None:
+        self.progress, self.done = progress, 0.0
         contact, law = problem.contact, problem.law
         self.problem, self.contact, self.depth_limit = problem, contact, problem.depth_limit
         self.cycles_per_update = float(cycles_per_update)
@@ -108,6 +114,7 @@ class _CycleRun:
         status, last = RUNNING, self.updates + updates
         while status == RUNNING and self.updates < last:
             status = self._block(depth, min(_BLOCK, last - self.updates))
+            self._tell()
         if status in (CONFORMING, VANISHED):
             check_touch(self.contact, self.x, self.y, self.depth, self.ran)
             raise no_sliding(self.ran)
@@ -120,6 +127,12 @@ class _CycleRun:
                 "be a number, but is not: check load and sliding there"
             )
         check_sawtooth(self.contact, self.depth, self.ran, self.depth_limit)
+
+    def _tell(self) -> None:
+        """Tell how much of the depth or of the horizon is done; it only rises."""
+        part = max(float(self.depth.max()) / self.depth_limit, self.cycles / self.problem.horizon)
+        self.done = max(self.done, min(1.0, part))
+        self.progress(self.done)
 
     def replay(self, snapshot: tuple[float, Vector, Vector, Vector], start: int, updates: int) -> None:
         """Update so often from a snapshot, taken after the first ones."""
@@ -188,14 +201,21 @@ def check_length(problem: WearProblem[AnyContact], expected: float, cycles_per_u
     )
 
 
-def run_per_cycle(problem: WearProblem[AnyContact], cycles_per_update: int) -> Trajectory:
-    """Wear a flank update by update until a stop limit is met or the horizon is reached."""
+def run_per_cycle(
+    problem: WearProblem[AnyContact],
+    cycles_per_update: int,
+    progress: Callable[[float], None] = lambda part: None,
+) -> Trajectory:
+    """Wear a flank update by update until a stop limit is met or the horizon is reached.
+
+    Of a contact that passes, `progress` is told how much is done.
+    """
     if isinstance(problem.contact, RestingContact):
         # Not imported for contacts that pass.
         from wearsim.wear.implicit_steps import run_resting
 
         return run_resting(problem, 0, float(cycles_per_update))
-    horizon, run = problem.horizon, _CycleRun(problem, cycles_per_update)
+    horizon, run = problem.horizon, _CycleRun(problem, cycles_per_update, progress)
     check_touch(problem.contact, run.x, run.y, run.depth, 0.0)
     kept = [(0.0, run.x.copy(), run.y.copy(), run.depth.copy())]
     most_updates = int(horizon / cycles_per_update)
