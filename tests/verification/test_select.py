@@ -51,7 +51,7 @@ def judged(need: DriveRequirements) -> tuple[CandidateDrive, ...]:
 def test_shigley_example_17_5(validated: Callable[..., None]) -> None:
     """90 hp at 300 rpm to 150 rpm, factor 1.3 times 1.5: published are no. 140-3, 76 links, 25.104 pitches.
 
-    Its other answers, no. 160-2 and 200-1, pass here too. Two strands of no. 140 would have to carry
+    Its other answers, no. 140-4, 160-2 and 200-1, pass here too. Two strands of no. 140 would have to carry
     176/1.7 = 103 hp each.
     """
     need = DriveRequirements(
@@ -62,6 +62,8 @@ def test_shigley_example_17_5(validated: Callable[..., None]) -> None:
     assert chosen in ranked(drives)
     assert drive_of(drives, "32A-2", (17, 34)) in ranked(drives)
     assert drive_of(drives, "40A-1", (17, 34)) in ranked(drives)
+    more = judged(replace(need, strands_min=4, strands_max=6))
+    assert drive_of(more, "28A-4", (17, 34)) in ranked(more)
     lesser = drive_of(drives, "28A-2", (17, 34))
     assert "plate fatigue" in {refusal.limit for refusal in lesser.refusals}
     rating = 90 * 1.95 / used(chosen, "plate fatigue") / 2.5
@@ -502,7 +504,7 @@ def test_shaft_load_of_a_layout() -> None:
         ({"centre": 500.0, "centre_min": 400.0}, "centre_min: must be left out"),
         ({"centre_min": 500.0, "centre_max": 400.0}, "centre_max: must be at least centre_min"),
         ({"series": ("C",)}, "series: must be of A, B, H, GOST"),
-        ({"strands_max": 4}, "strands_max: must be a whole number and at least 1|strands_max: must be"),
+        ({"strands_max": 7}, "strands_max: must be a whole number and at least 1|strands_max: must be"),
         ({"hours": math.nan, "speed": math.inf}, "(?s)speed: must be a finite.*hours: must be a finite"),
     ],
 )

@@ -3,7 +3,7 @@
 import csv
 import difflib
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -45,8 +45,8 @@ class Chain:
     Examples
     --------
     >>> duplex = chains()["08B-2"]
-    >>> duplex.strands, duplex.bearing_area  # 2 * 50.3
-    (2, 100.6)
+    >>> duplex.strands, duplex.bearing_area, duplex.tensile  # 2 * 50.3, less than 2 * 17.8 kN
+    (2, 100.6, 31100.0)
     >>> round(duplex.mass_per_length / KG_PER_M, 6)  # 2 * 0.70 kg/m
     1.4
     """
@@ -78,8 +78,9 @@ class Chain:
     def face_width(self) -> float:
         """Width of the standard tooth under all strands [mm] (ISO 606 rim width b_f1)."""
         wide = self.pitch > 12.7
-        single, multiple = (0.95, 0.93) if wide else (0.93, 0.91)
-        return self.strands * self.inner_width * (single if self.strands == 1 else multiple)
+        single, few, many = (0.95, 0.93, 0.93) if wide else (0.93, 0.91, 0.88)
+        share = single if self.strands == 1 else few if self.strands <= 3 else many
+        return self.strands * self.inner_width * share
 
 
 @dataclass(frozen=True)
@@ -164,6 +165,49 @@ def catalogue_rows(table: str) -> tuple[dict[str, str], ...]:
 
 
 @cache
+def chain_rows() -> tuple[dict[str, str], ...]:
+    """Return the rows of all chains, each single row before those of its several strands.
+
+    ASME B29.1 gives N strands N times the tensile strength of one, to any number of strands, and the
+    heavy series of ISO 606 has it so to three: these rows follow from the single one. The B chains of
+    ISO 606 of two and three strands carry less than that and stand in the table.
+    """
+    found: list[dict[str, str]] = []
+    for row in catalogue_rows("chains"):
+        several = _MOST_BY_RULE.get(row["series"], 1) if row["transverse_pitch_mm"] else 1
+        found += [row, *(_several(row, strands) for strands in range(2, several + 1))]
+    return tuple(found)
+
+
+MOST_STRANDS = 6
+"""Strands that the ratings of ANSI are tabled to."""
+
+_MOST_BY_RULE = {"ISO606-A/ANSI B29.1": MOST_STRANDS, "ISO606-H": 3}
+"""Series whose chains of several strands follow from the single row, and to how many strands."""
+
+
+def _several(row: dict[str, str], strands: int) -> dict[str, str]:
+    """Return the row of so many strands of a single chain."""
+    times = {
+        column: f"{strands * float(row[column]):.6g}"
+        for column in ("bearing_area_mm2", "tensile_kN", "mass_kg_per_m")
+    }
+    known, _, doubtful = row["trust"].partition("; doubtful: ")
+    known = known.replace("typical: mass_kg_per_m", "estimated: mass_kg_per_m")
+    about = f"tensile_kN {strands} times the single row as the standard has it, bearing_area_mm2 too; "
+    about += f"mass_kg_per_m {strands} times the single row, good to about 10 %"
+    return (
+        row
+        | times
+        | {
+            "designation": row["designation"].replace("-1", f"-{strands}").replace(")", f"-{strands})"),
+            "trust": known + (f"; doubtful: {doubtful}" if doubtful else ""),
+            "note": "; ".join(part for part in (row["note"], about) if part),
+        }
+    )
+
+
+@cache
 def chains() -> dict[str, Chain]:
     """Return the chains by every name they go by.
 
@@ -175,19 +219,9 @@ def chains() -> dict[str, Chain]:
     '08A-3'
     """
     found: dict[str, Chain] = {}
-    for row in catalogue_rows("chains"):
+    for row in chain_rows():
         chain = _chain(row)
-        _, _, other = row["designation"].partition(" (")
-        ansi = other.rstrip(")")
-        base = chain.designation
-        if chain.series.startswith("ISO606"):
-            base = base.removesuffix("-1")
-        found |= {name: chain for name in (chain.designation, base, ansi) if name}
-        if base == chain.designation or not chain.transverse_pitch:
-            continue
-        for strands in (2, 3):
-            multiple = _multiple(chain, f"{base}-{strands}", strands)
-            found |= {f"{name}-{strands}": multiple for name in (base, ansi) if name}
+        found |= dict.fromkeys(_names(row), chain)
     return found
 
 
@@ -242,15 +276,25 @@ def _plain(name: str) -> str:
     return re.sub(r"(?<!\d)-|-(?!\d)", "", text)
 
 
+def _names(row: dict[str, str]) -> list[str]:
+    """Return the designation, that without the one strand, and those of ANSI."""
+    designation, _, ansi = row["designation"].rstrip(")").partition(" (")
+    names = [designation]
+    if row["series"].startswith("ISO606"):
+        names.append(designation.removesuffix("-1"))
+        if ansi:
+            names += [ansi, f"{ansi}-1"] if designation.endswith("-1") else [ansi]
+    return names
+
+
 def _chain(row: dict[str, str]) -> Chain:
     designation = row["designation"].partition(" (")[0]
-    first = designation[0]
     return Chain(
         designation=designation,
         pitch=float(row["pitch_mm"]),
         roller_diameter=float(row["roller_diameter_mm"]),
         inner_width=float(row["inner_width_mm"]),
-        strands=int(first) if first.isdigit() and designation[1:3] == "ПР" else 1,
+        strands=_strands(row["series"], designation),
         tensile=1000.0 * float(row["tensile_kN"]),
         note=_note(row),
         series=row["series"],
@@ -262,25 +306,16 @@ def _chain(row: dict[str, str]) -> Chain:
     )
 
 
+def _strands(series: str, designation: str) -> int:
+    """Return the number that ISO 606 writes behind a designation and GOST 13568 before it."""
+    count = designation[0] if series == "GOST13568" else designation.partition("-")[2]
+    return int(count) if count.isdigit() else 1
+
+
 def _note(row: dict[str, str]) -> str:
     """What a case that uses the row must tell: its doubtful numbers first."""
     _, uncertain, columns = row["trust"].partition("doubtful: ")
     return ", ".join(part for part in (uncertain + columns, row["note"]) if part)
-
-
-def _multiple(single: Chain, designation: str, strands: int) -> Chain:
-    note = f"area, tensile strength and mass are {strands} times the single row (approximation)"
-    if single.series == "ISO606-B":
-        note += "; the tensile strength may be less: 2ПР-12,7-31,8 has 1.75 times the single row"
-    return replace(
-        single,
-        designation=designation,
-        strands=strands,
-        tensile=strands * single.tensile,
-        bearing_area=strands * single.bearing_area,
-        mass_per_length=strands * single.mass_per_length,
-        note="; ".join(part for part in (single.note, note) if part),
-    )
 
 
 @cache

@@ -5,7 +5,7 @@ Written in the handbooks' units: m/s, rpm, kW; elongation as a fraction.
 
 from dataclasses import dataclass
 
-from wearsim.catalogue.catalogues import environments
+from wearsim.catalogue.catalogues import MOST_STRANDS, environments
 from wearsim.chain.power_rating import strand_factor
 from wearsim.chain.service_conditions import LUBRICATIONS
 from wearsim.errors import CaseError, Fault
@@ -14,9 +14,6 @@ from wearsim.lubrication.recommended import recommended_lubrication
 
 RATED_ELONGATION = 0.03
 """At which the rules take a chain for worn out."""
-
-MOST_STRANDS = 6
-"""That the table of strand factors knows."""
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,6 @@ _COLUMNS: dict[str, dict[str, str]] = {
         "transverse_pitch_mm": "p_t\nmm",
         "tensile_kN": "Q\nkN",
         "mass_kg_per_m": "q\nkg/m",
-        "source": "source",
         _DOUBTFUL: _DOUBTFUL,
     },
     "materials": {
@@ -79,7 +78,7 @@ def list_table(table: str, as_json: bool) -> None:
         click.echo(json.dumps(rows, ensure_ascii=False))
         return
     click.echo(_table_text(_COLUMNS[table], rows))
-    for line in (*_legend(_COLUMNS[table]), *_notes(_COLUMNS[table], rows), *_doubts(table)):
+    for line in (*_legend(_COLUMNS[table]), *_doubts(table), *_notes(_COLUMNS[table], rows)):
         click.echo(line)
 
 
@@ -92,9 +91,9 @@ def _rows(table: str) -> list[dict[str, str]]:
         from wearsim.catalogue.shipped_cases import shipped_cases
 
         return [_case(name, path) for name, path in shipped_cases().items()]
-    from wearsim.catalogue.catalogues import catalogue_rows
+    from wearsim.catalogue.catalogues import catalogue_rows, chain_rows
 
-    return list(catalogue_rows(table.replace("-", "_")))
+    return list(chain_rows() if table == "chains" else catalogue_rows(table.replace("-", "_")))
 
 
 def _case(name: str, path: Path) -> dict[str, str]:
@@ -140,11 +139,14 @@ _NOTES = ("range", "not_for", "source", "joint_source")
 
 
 def _notes(columns: Mapping[str, str], rows: list[dict[str, str]]) -> Iterator[str]:
-    """Give what is to say of each row and too long for a column."""
+    """Give what is to say of each row and too long for a column, once for rows that share it."""
     for name in (name for name in _NOTES if name in rows[0] and name not in columns):
         yield f"\n{name.replace('_', ' ')}"
+        rows_of: dict[str, list[str]] = {}
         for row in rows:
-            text = f"{next(iter(row.values()))}: {row[name]}"
+            rows_of.setdefault(row[name], []).append(next(iter(row.values())))
+        for note, names in rows_of.items():
+            text = f"{', '.join(names)}: {note}"
             yield textwrap.fill(text, _WIDTH, initial_indent="  ", subsequent_indent="    ")
 
 

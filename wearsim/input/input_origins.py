@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wearsim.catalogue.catalogues import catalogue_rows, chains, wear_conditions
+from wearsim.catalogue.catalogues import catalogue_rows, chain_rows, chains, wear_conditions
 from wearsim.input.document import leaves
 from wearsim.input.keys import schema_fields, schema_of
 from wearsim.quantities import quantities
@@ -77,9 +77,8 @@ def _source(key: str, value: Any) -> str:
 
 def _chain_source(name: str) -> str:
     chain = chains()[name]
-    base = f"{chain.designation.rpartition('-')[0]}-1"
-    for row in catalogue_rows("chains"):
-        if row["designation"].partition(" (")[0] in (chain.designation, base):
+    for row in chain_rows():
+        if row["designation"].partition(" (")[0] == chain.designation:
             note = f"; note: {chain.note}" if chain.note else ""
             return f"{chain.series}: {row['source']}; trust: {row['trust']}{note}"
     return chain.series

@@ -10,14 +10,14 @@ import numpy as np
 
 from wearsim.case.keys.drive_tables import JOINT_LAW_KEYS
 from wearsim.case.model import Case, Drive, LoadBlock, WearBand, WearInput, heaviest_block, on_flank
-from wearsim.catalogue.catalogues import Chain
+from wearsim.catalogue.catalogues import MOST_STRANDS, Chain
 from wearsim.chain.chain_loop import ChainLoop, Wheel
 from wearsim.chain.drive_layout import DriveLayout, ToothMeetings
 from wearsim.chain.elongation_limit import elongation_finding
 from wearsim.chain.joint_wear import JointLaw, JointState, elongation_per_loop
 from wearsim.chain.loop_forces import LoopForces
 from wearsim.chain.loop_layout import LoopLayout
-from wearsim.chain.practice_drive import MOST_STRANDS, PracticeDrive
+from wearsim.chain.practice_drive import PracticeDrive
 from wearsim.chain.rating_findings import RatedDrive, RatingFinding, overload_fault
 from wearsim.chain.service_conditions import LUBRICATIONS
 from wearsim.contact.stop_limits import StopLimit, stop_limit

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from wearsim.catalogue.catalogues import USUAL_CONDITION, WearCondition, wear_conditions
+from wearsim.catalogue.catalogues import MOST_STRANDS, USUAL_CONDITION, WearCondition, wear_conditions
 from wearsim.errors import CaseError, Fault, Range
 
 SERIES = {"A": "ISO606-A/ANSI B29.1", "B": "ISO606-B", "H": "ISO606-H", "GOST": "GOST13568"}
@@ -20,7 +20,7 @@ A chain rides higher on more teeth: by 200/z % of elongation it is worn out, 1.6
 
 _LENGTH = Range(above=0.0, most=1e6, optional=True)
 _TEETH = Range(least=9, most=MOST_TEETH, whole=True)
-_STRANDS = Range(least=1, most=3, whole=True)
+_STRANDS = Range(least=1, most=MOST_STRANDS, whole=True)
 
 _RANGES: dict[str, tuple[Range, str]] = {
     "power": (Range(above=0.0, most=1e5), "give the power in kW, or with its unit"),
@@ -36,8 +36,8 @@ _RANGES: dict[str, tuple[Range, str]] = {
     "ratio_tolerance": (Range(least=0.0, most=0.2), "give a part of the ratio, such as 3 %"),
     "teeth_min": (_TEETH, "17 are usual, fewer run roughly"),
     "teeth_max": (_TEETH, "25 are usual"),
-    "strands_min": (_STRANDS, "the catalogue has chains of one to three strands"),
-    "strands_max": (_STRANDS, "the catalogue has chains of one to three strands"),
+    "strands_min": (_STRANDS, "the catalogue has A chains to six strands, others to three"),
+    "strands_max": (_STRANDS, "the catalogue has A chains to six strands, others to three"),
 }
 """What a number may be, and what to do where it is not."""
 
