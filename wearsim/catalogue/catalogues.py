@@ -2,7 +2,6 @@
 
 import csv
 import difflib
-import re
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -223,57 +222,6 @@ def chains() -> dict[str, Chain]:
         chain = _chain(row)
         found |= dict.fromkeys(_names(row), chain)
     return found
-
-
-def chain_name(typed: str) -> str | None:
-    """Return the name of the catalogue that a typed designation stands for.
-
-    Examples
-    --------
-    >>> chain_name("08b"), chain_name("#40"), chain_name("40")
-    ('08B', 'ANSI 40', None)
-    """
-    return typed if typed in chains() else _spellings().get(_plain(typed))
-
-
-def known_chain_name(typed: str) -> str:
-    """Return the name of the catalogue that a typed designation stands for; raise ValueError for none."""
-    name = chain_name(typed)
-    if name:
-        return name
-    raise ValueError(
-        f"no such chain in the catalogue{nearest_chain(typed)} (wearsim list chains shows them all)"
-    )
-
-
-def nearest_chain(typed: str) -> str:
-    """Return a hint at the chains most like a designation that is none.
-
-    Examples
-    --------
-    >>> nearest_chain("8B")
-    "; did you mean '08B' (pitch 12.7 mm)?"
-    """
-    plain, known = _plain(typed), _spellings()
-    likely = [f"ANSI{plain}"]
-    likely += [f"{zero}{plain}{series}" for zero in ("", "0") for series in ("", *"ABCH")]
-    found = [known[spelling] for spelling in likely if spelling in known]
-    if not found:
-        return nearest(typed, dict(chains()))
-    shown = (f"{name!r} (pitch {chains()[name].pitch:g} mm)" for name in found)
-    return f"; did you mean {' or '.join(shown)}?"
-
-
-@cache
-def _spellings() -> dict[str, str]:
-    return {_plain(name): name for name in chains()}
-
-
-def _plain(name: str) -> str:
-    """Return a designation in capitals, its parts apart only where digits meet."""
-    text = re.sub(r"^(ANSI)?[\s-]*(#|№|NO\.?)\s*(?=\d)", "ANSI", name.strip().upper())
-    text = re.sub(r"[\s\u2010-\u2015-]+", "-", text.replace(".", ","))
-    return re.sub(r"(?<!\d)-|-(?!\d)", "", text)
 
 
 def _names(row: dict[str, str]) -> list[str]:

@@ -149,7 +149,8 @@ def new_case(chain: str, teeth: int, kind: str) -> str:
 
 def _seed(chain: str, teeth: int, kind: str) -> "Case":
     """A case that takes every default."""
-    from wearsim.catalogue.catalogues import chain_name, chains
+    from wearsim.catalogue.catalogues import chains
+    from wearsim.catalogue.chain_names import chain_name
     from wearsim.chain.standard_teeth import standard_form
     from wearsim.drive.load_case import load_single
 

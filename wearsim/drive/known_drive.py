@@ -5,7 +5,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from wearsim.catalogue.catalogues import chains, known_chain_name, nearest
+from wearsim.catalogue.catalogues import chains, nearest
+from wearsim.catalogue.chain_names import known_chain_name
 from wearsim.chain.service_conditions import (
     LUBRICATIONS,
     SHIFTS,

@@ -20,7 +20,8 @@ from wearsim.case.table_inputs import (
     take_defaults,
     wear_input,
 )
-from wearsim.catalogue.catalogues import KG_PER_M, Chain, chain_name, chains
+from wearsim.catalogue.catalogues import KG_PER_M, Chain, chains
+from wearsim.catalogue.chain_names import chain_name, name_of_strands, strands_there_are
 from wearsim.contact.stop_limits import CHAIN_LIMITS
 from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.input.document import Document, is_whole_drive
@@ -150,14 +151,6 @@ def _turns_per_cycle(case: ChainRecord) -> int:
     return table.engaged_every // common
 
 
-def _of_strands(name: str, strands: int) -> str | None:
-    """Return the chain of so many strands of a single one, None where there is none."""
-    for several in (f"{name.removesuffix('-1')}-{strands}", f"{strands}{name}"):
-        if several in chains():
-            return several
-    return None
-
-
 def _chain(case: ChainRecord, table: ChainTable) -> Chain:
     strands = table.strands or 1
     if table.designation is None:
@@ -172,9 +165,10 @@ def _chain(case: ChainRecord, table: ChainTable) -> Chain:
     name = chain_name(table.designation)
     assert name is not None
     if chains()[name].strands != strands and strands > 1:
-        several = _of_strands(name, strands)
+        several = name_of_strands(name, strands)
         if several is None:
-            case.faults.add("chain.strands", f"the catalogue has no {name} of {strands} strands")
+            text = f"no such chain in the catalogue: {strands_there_are(name, strands)}"
+            case.faults.add("chain.strands", text)
             return chains()[name]
         name = several
         case.inputs["chain"]["designation"] = name

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator
 
 from wearsim.case.keys.wear_tables import MaterialTable, WearTable
-from wearsim.catalogue.catalogues import chain_name, chains, known_chain_name, wear_conditions
+from wearsim.catalogue.catalogues import MOST_STRANDS, chains, wear_conditions
+from wearsim.catalogue.chain_names import chain_name, known_chain_name
 from wearsim.geometry.forms import BETWEEN_FORMS, TOOTH_FORMS
 from wearsim.input.table import Table, all_differ, known, others_of
 from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
@@ -147,7 +148,7 @@ class ChainTable(Table):
     bush_diameter_mm: Positive | None = None
     bearing_area_mm2: Positive | None = None
     mass_kg_per_m: Positive | None = None
-    strands: Annotated[int, Field(ge=1, le=3)] | None = None
+    strands: Annotated[int, Field(ge=1, le=MOST_STRANDS)] | None = None
 
     @field_validator("designation", mode="before")
     @classmethod

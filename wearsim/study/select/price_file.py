@@ -4,7 +4,8 @@ import csv
 import math
 from pathlib import Path
 
-from wearsim.catalogue.catalogues import chain_name, chains, nearest_chain
+from wearsim.catalogue.catalogues import chains
+from wearsim.catalogue.chain_names import chain_name, nearest_chain
 from wearsim.errors import CaseError, Fault
 from wearsim.input.csv_tables import header_faults
 from wearsim.study.select.model import Price
