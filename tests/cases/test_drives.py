@@ -134,10 +134,10 @@ def test_the_answer_takes_twelve_lines(name: str, setting: str | None) -> None:
 
 
 def test_the_worst_rating_is_named_and_the_rest_are_counted() -> None:
-    """GOST joint pressure 216.9 % is the worst of three: see the ratings that `check` prints."""
+    """Plate fatigue is the worst of two; GOST joint pressure, 216.9 %, is for other chains."""
     quick = ["run.life_tolerance=0.1", "mechanism.phases=1", "run.horizon_hours=5"]
     text = drive_text(drive_life(load_drive(PATHS["packaging-conveyor"], quick)), "drive.toml")
-    worst = "joint pressure (indicative) 216.9 % and 2 more; without K_e 128.5 %"
+    worst = "plate fatigue (indicative) 165.1 % and 1 more; plates may fail sooner"
     assert f"  Ratings    OVERLOADED: {worst}\n" in text
 
 

@@ -6,7 +6,15 @@ import pytest
 
 import wearsim
 from wearsim.catalogue.catalogues import regimes
-from wearsim.chain.rating_findings import RatedDrive, RatingFinding, assess, rating_warnings, warning
+from wearsim.chain.rating_findings import (
+    RatedDrive,
+    RatingFinding,
+    assess,
+    deciding,
+    overloading,
+    rating_warnings,
+    warning,
+)
 from wearsim.errors import CaseError
 
 WRAP = {
@@ -108,7 +116,7 @@ def test_warnings_are_of_what_is_outside():
     joints = case(drive={"joint_application_factor": 3.0})
     (text,) = rating_warnings(ratings(joints))
     assert text.startswith("outside a rating: joint pressure 46.47 MPa, allowed at most 21.62 MPa")
-    assert text.endswith("(GOST practice (Dunaev); indicative here)")
+    assert text.endswith("(GOST practice (Dunaev); for information here)")
 
 
 def test_lower_limit_in_words():
@@ -179,3 +187,17 @@ def test_a_typical_regime_cannot_break_the_chain():
     drive = {**ONE_19["drive"], "slack_tension_N": 100}
     with pytest.raises(CaseError, match=r"load\.tension_N.*tensile strength"):
         wearsim.load_case({**ONE_19, "drive": drive, "load": load})
+
+
+@pytest.mark.parametrize(
+    ("series", "judges"),
+    [("ISO606-B", False), ("ISO606-A/ANSI B29.1", False), ("GOST13568", True), ("", True)],
+)
+def test_a_gost_table_informs_on_an_iso_chain(series, judges):
+    """Within all other ratings, 10 kW over 40 mm2 is 55 MPa; [p] is at most 35 MPa."""
+    drive = RatedDrive(25.4, 25, 430.0, 10.0, bearing_area=40.0, tensile=60e3, series=series)
+    findings = assess(drive)
+    pressure = next(one for one in findings if one.name == "joint pressure")
+    assert not pressure.ok
+    assert (pressure in overloading(findings), pressure in deciding(findings)) == (judges, judges)
+    assert pressure.informs != judges

@@ -281,7 +281,7 @@ def plain_drive(need, series, strands, name, z1, z2):
         at = next(i for i, speed in enumerate(SAFETY_SPEEDS) if n <= speed)
         part = (n - SAFETY_SPEEDS[at - 1]) / (SAFETY_SPEEDS[at] - SAFETY_SPEEDS[at - 1])
         asked = SAFETIES_19[at - 1] + (SAFETIES_19[at] - SAFETIES_19[at - 1]) * part
-    rules = {"A": power, "B": power and pressure and speed, "GOST": pressure and speed}
+    rules = {"A": power, "B": power, "GOST": pressure and speed}
     if not (rules[series] and safety >= asked):
         return None
     # k = 1.2e-10 p/25.7 (1000/n)^0.7 (P/12.7)^0.25 at both turns of a joint, p held to 15 MPa, n to 1000 rpm.

@@ -51,6 +51,10 @@ LEAST_SAFETY = 7.0
 
 _GOST = "GOST13568"
 
+_OTHER_CHAINS = "for information, the table is for GOST 13568 chains"
+_MAYBE_OTHER_CHAINS = "indicative, the table is for GOST 13568 chains"
+"""Notes of the tables of GOST practice on a chain of ISO 606, and on one whose series is not known."""
+
 
 @dataclass(frozen=True)
 class RatedDrive:
@@ -131,13 +135,18 @@ class RatingFinding:
         """Whether the value keeps to the limit."""
         return self.value >= self.limit if self.at_least else self.value <= self.limit
 
+    @property
+    def informs(self) -> bool:
+        """Whether the rule is for other chains, so that it informs and does not judge."""
+        return self.note == _OTHER_CHAINS
+
 
 def overloading(ratings: Sequence[RatingFinding]) -> tuple[RatingFinding, ...]:
     """Return the ratings that a drive is overloaded by.
 
-    Those outside but for the recommended speed, above which a drive may run, and the elongation,
-    which is a limit of its own. Where a rating of the load applies as it stands, those that are
-    only indicative overload no drive by themselves.
+    Those outside but for the recommended speed, above which a drive may run, the elongation,
+    which is a limit of its own, and rules for other chains. Where a rating of the load applies as it
+    stands, those that are only indicative overload no drive by themselves.
 
     Examples
     --------
@@ -148,16 +157,18 @@ def overloading(ratings: Sequence[RatingFinding]) -> tuple[RatingFinding, ...]:
     >>> [finding.name for finding in overloading([pressure])]
     ['joint pressure']
     """
-    outside = tuple(finding for finding in ratings if not finding.ok and not _rating(finding).advice)
-    judged = any(_rating(finding).of_load and not finding.note for finding in ratings)
+    applying = tuple(one for one in ratings if not one.informs)
+    outside = tuple(finding for finding in applying if not finding.ok and not _rating(finding).advice)
+    judged = any(_rating(finding).of_load and not finding.note for finding in applying)
     return () if judged and all(finding.note for finding in outside) else outside
 
 
 def deciding(ratings: Sequence[RatingFinding]) -> tuple[RatingFinding, ...]:
     """Return the ratings that decide by themselves whether a drive is overloaded.
 
-    All but the recommended speed and the elongation; where a rating of the load applies as it
-    stands, only those that are not indicative. A drive that keeps to them is not `overloading`.
+    All but the recommended speed, the elongation and rules for other chains; where a rating of the
+    load applies as it stands, only those that are not indicative. A drive that keeps to them is not
+    `overloading`.
 
     Examples
     --------
@@ -166,7 +177,7 @@ def deciding(ratings: Sequence[RatingFinding]) -> tuple[RatingFinding, ...]:
     >>> [finding.name for finding in deciding([plates, pressure])]
     ['plate fatigue']
     """
-    found = tuple(one for one in ratings if not _rating(one).advice)
+    found = tuple(one for one in ratings if not one.informs and not _rating(one).advice)
     judged = any(_rating(one).of_load and not one.note for one in found)
     return tuple(one for one in found if not (judged and one.note))
 
@@ -249,15 +260,22 @@ def _pressure_findings(drive: RatedDrive, application: float) -> list[RatingFind
     if allowed is None or not drive.bearing_area or drive.strands > 3:
         return []
     found = joint_pressure(drive.pull, drive.bearing_area, drive.strands, application)
-    note = "" if drive.series == _GOST else "indicative, the table is for GOST 13568 chains"
+    note = _gost_note(drive.series)
     return [RatingFinding(_PRESSURE.name, found, allowed, "MPa", "GOST practice (Dunaev)", note)]
+
+
+def _gost_note(series: str) -> str:
+    """Return what limits the use of the tables of GOST practice for a series of chains."""
+    if series == _GOST:
+        return ""
+    return _OTHER_CHAINS if series.startswith("ISO606") else _MAYBE_OTHER_CHAINS
 
 
 def _speed_findings(drive: RatedDrive) -> list[RatingFinding]:
     limits = speed_limits(drive.pitch)
     if limits is None:
         return []
-    note = "" if drive.series == _GOST else "indicative, the table is for GOST 13568 chains"
+    note = _gost_note(drive.series)
     return [
         RatingFinding(rating.name, drive.speed, limit, "rpm", "GOST practice", note)
         for rating, limit in zip(_SPEEDS, limits, strict=True)
@@ -314,7 +332,8 @@ def warning(finding: RatingFinding) -> str:
 def _compared(finding: RatingFinding) -> str:
     side = "least" if finding.at_least else "most"
     unit = f" {finding.unit}" if finding.unit else ""
-    source = f"{finding.source}; indicative here" if finding.note else finding.source
+    kind = "for information" if finding.informs else "indicative"
+    source = f"{finding.source}; {kind} here" if finding.note else finding.source
     of = f" of {finding.load}" if finding.load else ""
     return (
         f"{finding.name}{of} {finding.value:.4g}{unit}, allowed at {side} "

@@ -222,7 +222,8 @@ def used_text(finding: RatingFinding) -> str:
     >>> used_text(RatingFinding("safety", 6.0, 7.0, "", "iwis", at_least=True))
     'safety 6, at least 7'
     """
-    name = f"{finding.name} (indicative)" if finding.note else finding.name
+    kind = "for information" if finding.informs else "indicative"
+    name = f"{finding.name} ({kind})" if finding.note else finding.name
     if finding.at_least:
         return f"{name} {finding.value:.3g}, at least {finding.limit:.3g}"
     return f"{name} {grouped(100.0 * finding.used)} %"
