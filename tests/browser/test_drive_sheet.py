@@ -9,7 +9,8 @@ import pytest
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
 from wearsim.input.document import CaseText
-from wearsim.report.drive.report_page import SheetHead, save_sheet
+from wearsim.report.drive.report_page import save_sheet
+from wearsim.report.html.paper import SheetHead
 
 pytestmark = [
     pytest.mark.slow,

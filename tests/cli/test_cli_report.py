@@ -288,3 +288,21 @@ def test_percentiles_that_follow_from_a_run(cli, drive, tmp_path):
     path.write_text(path.read_text() + '"load.power_kW" = {distribution = "lognormal", sigma_ln = 0.1}\n')
     cli("report", path, "--out", tmp_path / "two")
     assert "P10" not in text_of(tmp_path / "two" / "index.html")
+
+
+def test_page_of_a_wrap_begins_with_its_inputs(cli, wrapped, tmp_path):
+    """1000 N of tension less 50 N of slack is the pull; the head says who checked it."""
+    out = tmp_path / "out"
+    done = cli("report", wrapped, "--out", out, "--revision", "B", "--checked-by", "C. Hecker")
+    assert done.code == 0
+    page = text_of(out / "index.html")
+    for label, text in (
+        ("revision", "B"),
+        ("checked by", "C. Hecker"),
+        ("load as given", "1000 N of tension at 100 rpm"),
+        ("chain pull", "950 N"),
+        ("sprockets", "17 and 20 teeth, ratio 1.176"),
+    ):
+        assert f"<dt>{label}</dt><dd>{text}</dd>" in page.replace("\u00a0", " ")
+    assert page.index('id="given"') < page.index('id="verification"') < page.index('<p class="life">')
+    assert "| revision B | " in page and "counter(pages)" in page

@@ -350,7 +350,8 @@ def test_bounds_on_screen_stand_in_json_and_workbook(cli, drive, tmp_path):
     motor, roll = found["sprockets"]
     assert (roll["life_hours_low"], motor["life_hours_high"]) == (pytest.approx(low), pytest.approx(high))
     sheet = pd.read_excel(book, sheet_name=0, header=None).astype(str)
-    rows = dict(zip(sheet[0][:10], sheet[1][:10], strict=True))
+    rows = dict(zip(sheet[0][:30], sheet[1][:30], strict=True))
+    assert list(rows).index("load as given") < list(rows).index("Ratings") < list(rows).index("Chain")
     screen = " ".join(cli("life", path, *few, "--explain").out.split())
     for label in ("Chain", "roll", "First", "Band", "Ratings"):
         assert f"{label} {' '.join(rows[label].split())}" in screen

@@ -8,13 +8,16 @@ from html import unescape
 
 import pytest
 
+from wearsim.chain.rating_findings import deciding
 from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
 from wearsim.drive.maintenance import drive_plan
 from wearsim.quantities import grouped
 from wearsim.report.drive.layout import layout_json
 from wearsim.report.drive.plan_sheet import plan_json
-from wearsim.report.drive.report_page import SheetHead, save_sheet, sheet_html
+from wearsim.report.drive.report_page import save_sheet, sheet_html
+from wearsim.report.html.paper import SheetHead
+from wearsim.report.verification import given_rows, verification_rows
 from wearsim.result import Life
 from wearsim.result.lives import hours, service_measures
 
@@ -84,7 +87,7 @@ def lived(tmp_path_factory, bored):
     return drive_life(load_drive(written(tmp_path_factory.mktemp("drive") / "drive.toml", bored)))
 
 
-HEAD = SheetHead(date(2026, 11, 24), "Line 4", "A. Author", "D-17")
+HEAD = SheetHead(date(2026, 11, 24), "Line 4", "A. Author", "D-17", "B", "C. Hecker")
 
 
 @pytest.fixture(scope="module")
@@ -112,12 +115,9 @@ def pairs(page):
 
 def test_the_head_says_what_it_is_of_and_when(page):
     found = pairs(page)
-    assert [found[key] for key in ("project", "drawing", "author", "date")] == [
-        "Line 4",
-        "D-17",
-        "A. Author",
-        "2026-11-24",
-    ]
+    assert [found[label] for label, _ in HEAD.rows] == [text for _, text in HEAD.rows]
+    assert {"revision": "B", "checked by": "C. Hecker"}.items() <= found.items()
+    assert "D-17 | revision B | 2026-11-24" in page and "counter(pages)" in page
     assert "<h1>08B-1, 17 to 20 teeth</h1>" in page
     assert "roll &lt;1&gt;" in page and "roll <1>" not in page
 
@@ -128,6 +128,28 @@ def test_the_page_fetches_nothing_and_has_no_script(page):
     assert "default-src 'none'" in page
 
 
+def test_inputs_come_first_then_the_verdict_then_the_hours(lived, page):
+    driver = lived.drive.driver
+    found = pairs(page)
+    told = [
+        *given_rows(lived.drive.inputs, driver.case),
+        *verification_rows(driver.case, lived.reference.ratings),
+    ]
+    # The geometry tells more of the chain, under the same label.
+    assert all(found[label] == text for label, text in told if label != "chain")
+    assert found["load as given"].endswith("at 300 rpm")
+    order = ('id="given"', 'id="verification"', "Ratings: within", '<p class="life">', 'id="ratings"')
+    assert list(order) == sorted(order, key=page.index)
+
+
+def test_the_command_needs_a_browser_for_a_pdf_before_it_runs(cli, tmp_path, bored, monkeypatch):
+    monkeypatch.setattr("wearsim.report.html.pdf._NAMES", ())
+    monkeypatch.setattr("wearsim.report.html.pdf._PLACES", {})
+    done = cli("report", written(tmp_path / "two.toml", bored), "--out", tmp_path / "sheet.pdf")
+    assert done.code == 2
+    assert "sheet.pdf: a PDF must be printed by Chromium, Chrome or Edge, and none is installed" in done.err
+
+
 def test_ratings_come_first_with_their_margins(lived, page):
     ratings = lived.results["driver"].ratings
     rows = tables(page)["Ratings"][1:]
@@ -135,13 +157,14 @@ def test_ratings_come_first_with_their_margins(lived, page):
     for row, one in zip(rows, ratings, strict=True):
         unit = f" {one.unit}" if one.unit else ""
         sign = "≥" if one.at_least else "≤"
-        assert row[1:4] == [
+        judges = one in deciding(ratings)
+        assert row[1] == ("ok" if one.ok else "outside") + ("" if judges else " (informs)")
+        assert row[2:5] == [
             f"{grouped(one.value)}{unit}",
             f"{sign} {grouped(one.limit)}{unit}",
             f"{grouped(one.margin)}{unit}",
         ]
-        assert row[4] == f"{grouped(100 * one.used, 3)} %"
-        assert row[5] == ("ok" if one.ok else "outside")
+        assert row[5] == f"{grouped(100 * one.used, 3)} %"
         assert one.source in row[6]
     assert page.index('id="ratings"') < page.index('id="layout"') < page.index('id="lives"')
     assert page.index('id="flanks"') < page.index('id="warnings"') < page.index('id="assumptions"')
@@ -296,8 +319,10 @@ def test_what_does_not_fit_is_refused(cli, drive, tmp_path, bored):
         assert done.code == 2 and "a drive with [[sprocket]] takes neither" in done.err
     done = cli("report", drive(), path, "--out", out)
     assert done.code == 2 and "a drive has a sheet of its own" in done.err
-    done = cli("report", drive(), "--out", out, "--author", "me")
-    assert done.code == 2 and "belong to a drive with [[sprocket]]" in done.err
+    done = cli("report", drive(), drive("b"), "--out", tmp_path / "two.pdf")
+    assert done.code == 2 and "a PDF is of one drive" in done.err
+    done = cli("report", drive(), "--out", tmp_path / "one.pdf", "--single-file")
+    assert done.code == 2 and "leave --single-file out" in done.err
     (tmp_path / "page.html").mkdir()
     done = cli("report", path, "--out", tmp_path / "page.html", "--force")
     assert done.code == 2 and "must be a file, but is a folder" in done.err

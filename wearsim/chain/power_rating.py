@@ -6,7 +6,7 @@ The formulas are empirical and written in the handbooks' units: power in kW, spe
 import math
 from collections.abc import Sequence
 
-from wearsim.catalogue.catalogues import table_factor
+from wearsim.catalogue.catalogues import catalogue_rows, table_factor
 
 HORSEPOWER = 0.745699872
 """1 hp = 550 ft lbf/s [kW]."""
@@ -55,6 +55,22 @@ def application_factor(driver: str, driven: str) -> float:
     1.5
     """
     return table_factor("application_factors", driver=driver, driven=driven)
+
+
+def shock_class(factor: float) -> tuple[str, str] | None:
+    """Return the kinds of driver and driven machine that f1 of ISO 10823 stands for; None of another factor.
+
+    All nine factors of the table differ.
+
+    Examples
+    --------
+    >>> shock_class(1.4), shock_class(1.25)
+    (('smooth', 'moderate shocks'), None)
+    """
+    for row in catalogue_rows("application_factors"):
+        if math.isclose(float(row["factor"]), factor, rel_tol=1e-9):
+            return row["driver"], row["driven"]
+    return None
 
 
 def tooth_factor(teeth: float) -> float:

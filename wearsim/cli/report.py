@@ -1,9 +1,9 @@
 """``wearsim report``: pages for a browser, one for each drive."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from datetime import date
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -22,16 +22,33 @@ if TYPE_CHECKING:
     from wearsim.case.model import Case
     from wearsim.drive.drive_case import DriveCase
     from wearsim.drive.drive_result import DriveLife
+    from wearsim.report.html.paper import SheetHead
     from wearsim.result import WearResult
 
+_HEAD = {
+    "project": "Project, printed at the head of the sheet.",
+    "drawing": "Drawing number, printed on the sheet.",
+    "revision": "Revision of the sheet, printed on every page.",
+    "author": "Author, printed on the sheet.",
+    "checked-by": "Who checked it, printed on the sheet.",
+}
+"""Options for the head of a sheet, with their help."""
 
-@click.command(short_help="HTML report: results, pictures, inputs, sources.")
+
+def _head_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options for the head of a sheet, in the order of its rows."""
+    for name, text in reversed(_HEAD.items()):
+        function = click.option(f"--{name}", default="", metavar="TEXT", help=text)(function)
+    return function
+
+
+@click.command(short_help="Report as HTML or PDF: inputs, verdict, service lives, pictures.")
 @click.argument("sources", nargs=-1, required=True, type=RunPath(path_type=Path), metavar="RUN_OR_CASE...")
 @click.option(
     "--out",
     required=True,
     type=click.Path(path_type=Path),
-    help="New folder; for a whole drive, also a file *.html.",
+    help="New folder, or a file *.pdf of one drive; for a whole drive, also a file *.html.",
 )
 @click.option("--single-file", is_flag=True, help="Self-contained pages with their scripts, about 5 MB each.")
 @click.option(
@@ -41,9 +58,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="brief: only answer, tooth, margins, assumptions and warnings.",
 )
-@click.option("--project", default="", metavar="TEXT", help="Project, printed on the sheet of a whole drive.")
-@click.option("--drawing", default="", metavar="TEXT", help="Drawing number, printed on the sheet.")
-@click.option("--author", default="", metavar="TEXT", help="Author, printed on the sheet.")
+@_head_options
 @click.option("--force", is_flag=True, help="Replace an existing folder or file.")
 @keeping_runs
 @overrides
@@ -53,21 +68,21 @@ def report(
     out: Path,
     single_file: bool,
     detail: str,
-    project: str,
-    drawing: str,
-    author: str,
     force: bool,
     settings: tuple[str, ...],
+    **head: str,
 ) -> int:
-    """Write HTML pages about runs (folders of life --out) and cases (.toml, run now).
+    """Write pages about runs (folders of life --out) and cases (.toml, run now).
 
     Open index.html in the folder: the page of the drive, or, for several, a comparison that links to
     their pages. The pages need no network. Needs wearsim[report].
 
     A case with [[sprocket]] twice or more is a whole drive: one page, a calculation sheet for A4.
+
+    --out sheet.pdf writes the page of one drive as PDF, with page numbers. Chromium, Chrome or Edge must be
+    installed to print it.
     """
     from wearsim.extras import check_installed
-    from wearsim.files import check_folder
 
     loaded = loaded_sources(sources, settings, False)
     if any(map(is_drive, loaded.values())):
@@ -77,11 +92,10 @@ def report(
             raise click.UsageError(
                 "a drive with [[sprocket]] takes neither --single-file, as its page is one, nor --detail"
             )
-        return _report_drive(loaded, out, force, (project, drawing, author))
-    if project or drawing or author:
-        raise click.UsageError("--project, --drawing and --author belong to a drive with [[sprocket]]")
+        check_installed(("jinja2",), "report", "report")
+        return _report_drive(loaded, out, force, _sheet_head(head))
     check_installed(("jinja2", "plotly"), "report", "report")
-    check_folder(out, force)
+    _check_place(out, force, single_file, len(loaded))
     found = results_of(loaded, False)
     from wearsim.report.comparison import differing_limits, distinct
     from wearsim.report.html.page_writer import save_report
@@ -89,31 +103,47 @@ def report(
 
     singles = [one for one in found.values() if isinstance(one, WearResult)]
     results = distinct(singles, [str(path) for path in found])
-    for page in save_report(results, out, force, single_file, detail):
-        click.echo(out / page)
+    for page in save_report(results, out, force, single_file, detail, _sheet_head(head)):
+        click.echo(page)
     if limits := differing_limits(results):
         warn(f"warning: {limits}")
     return SOME_FAILED if len(found) < len(set(sources)) else 0
+
+
+def _sheet_head(head: Mapping[str, str]) -> "SheetHead":
+    from wearsim.report.html.paper import SheetHead
+
+    return SheetHead(date.today(), **head)
+
+
+def _check_place(out: Path, force: bool, single_file: bool, count: int) -> None:
+    """Raise where pages cannot be written or replaced."""
+    from wearsim.files import check_folder
+    from wearsim.report.html.pdf import check_pdf, is_pdf
+
+    if not is_pdf(out):
+        check_folder(out, force)
+        return
+    if count > 1:
+        raise click.UsageError("a PDF is of one drive: run wearsim report for each")
+    if single_file:
+        raise click.UsageError("a PDF holds no scripts: leave --single-file out")
+    check_pdf(out, force)
 
 
 def _report_drive(
     loaded: "Mapping[Path, Case | DriveCase | WearResult | DriveLife]",
     out: Path,
     force: bool,
-    head: tuple[str, str, str],
+    head: "SheetHead",
 ) -> int:
     """Write the sheet of a drive, and print where it stands."""
     from wearsim.drive.drive_result import DriveLife
-    from wearsim.extras import check_installed
-    from wearsim.files import check_folder
+    from wearsim.report.drive.report_page import check_sheet, save_sheet
 
-    check_installed(("jinja2",), "report", "report")
-    from wearsim.report.drive.report_page import SheetHead, check_page, is_page, save_sheet
-
-    (check_page if is_page(out) else check_folder)(out, force)
+    check_sheet(out, force)
     found = results_of(loaded, False)
-    project, drawing, author = head
     for result in found.values():
         assert isinstance(result, DriveLife)
-        click.echo(save_sheet(result, SheetHead(date.today(), project, author, drawing), out, force))
+        click.echo(save_sheet(result, head, out, force))
     return SOME_FAILED if show_failed_parts(found) else 0

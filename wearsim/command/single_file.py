@@ -1,7 +1,7 @@
 """What commands that write one file share: its place, its ending, stdout for ``-``; and ``--xlsx``."""
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -74,20 +74,33 @@ def check_workbook(out: Path | None, xlsx: Path | None, force: bool) -> None:
 def write_workbook(results: "Mapping[Path, WearResult | DriveLife]", file: Path, force: bool) -> None:
     """Write results into a workbook, with titles that tell them apart, and say where it is.
 
-    What is found of a whole drive stands above its sprockets.
+    What is found of a whole drive stands above its sprockets, after what was given of it.
     """
     from wearsim.drive.drive_result import DriveLife
     from wearsim.report.comparison import distinct
-    from wearsim.report.drive.drive_words import drive_findings
     from wearsim.report.workbook import save_workbook
 
     sheets: dict[str, WearResult] = {}
-    said = {}
+    said: dict[str, Sequence[tuple[str, str]]] = {}
     for path, result in results.items():
         if isinstance(result, DriveLife):
             sheets |= {f"{result.drive.name} {one.case}": one for one in result.titled()}
-            said[result.title] = drive_findings(result)
+            said |= _verified(result)
         else:
             sheets[str(path)] = result
     save_workbook(distinct(list(sheets.values()), list(sheets)), file, force, said)
     warn(f"written to {file}")
+
+
+def _verified(found: "DriveLife") -> dict[str, Sequence[tuple[str, str]]]:
+    """Return what the sheet of a drive begins with: inputs, loads and lubrication, the verdict, the lives."""
+    from wearsim.report.drive.drive_words import drive_findings
+    from wearsim.report.verification import given_rows, verification_rows
+
+    title, case = found.drive.title, found.drive.driver.case
+    *lives, verdict = drive_findings(found)
+    return {
+        f"{title}: inputs": given_rows(found.drive.inputs, case),
+        f"{title}: loads, factors, lubrication": verification_rows(case, found.reference.ratings),
+        f"{title}: verdict and service lives": [verdict, *lives],
+    }

@@ -1,9 +1,10 @@
-"""Lubrication that a chain asks for at its speed.
+"""Lubrication that a chain needs at its speed, and the oil for it.
 
-The table is empirical and written in the handbooks' units: chain speed in m/s.
+The tables are empirical and written in the handbooks' units: chain speed in m/s, degrees C.
 """
 
 import math
+from dataclasses import dataclass
 from itertools import pairwise
 
 from wearsim.catalogue.catalogues import catalogue_rows
@@ -77,3 +78,29 @@ def recommended_lubrication(pitch: float, chain_speed: float) -> str:
     ['drip', 'oil-bath', 'forced']
     """
     return TYPES[sum(chain_speed > limit for limit in lubrication_speed_limits(pitch))]
+
+
+@dataclass(frozen=True)
+class Oil:
+    """An oil for a range of ambient temperature."""
+
+    coldest: float  # [degrees C]
+    warmest: float  # [degrees C]
+    sae: str  # grade of SAE J300
+    iso_vg: str  # viscosity grade of ISO 3448, one or a range [mm2/s at 40 degrees C]
+
+
+def recommended_oils() -> tuple[Oil, ...]:
+    """Return the oils that are recommended for roller chains, the coldest range first.
+
+    The oil must be thin enough to enter the joints: a mineral oil without detergents.
+
+    Examples
+    --------
+    >>> [oil.sae for oil in recommended_oils() if oil.coldest <= 20.0 <= oil.warmest]
+    ['SAE 30']
+    """
+    return tuple(
+        Oil(float(row["coldest_C"]), float(row["warmest_C"]), row["sae"], row["iso_vg"])
+        for row in catalogue_rows("oil_viscosity")
+    )

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from wearsim.case.model import Case
-from wearsim.chain.rating_findings import RatingFinding
+from wearsim.chain.rating_findings import RatingFinding, deciding
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column
 
@@ -20,9 +20,11 @@ def rating_json(case: Case) -> dict[str, Any]:
 
 def ratings_table(ratings: Sequence[RatingFinding]) -> AnswerTable[RatingFinding]:
     """Return a row for each rating; on the screen those outside are marked."""
+    judging = deciding(ratings)
     return AnswerTable(
         [
             Column("name", lambda one: one.name, "rating"),
+            Column("", lambda one: verdict(one, one in judging), "verdict", side="<"),
             Column("value", lambda one: one.value),
             Column("", lambda one: _in_unit(one, one.value), "value"),
             Column("limit", lambda one: one.limit),
@@ -30,7 +32,7 @@ def ratings_table(ratings: Sequence[RatingFinding]) -> AnswerTable[RatingFinding
             Column("unit", lambda one: one.unit),
             Column("ok", lambda one: one.ok),
             Column("", lambda one: _in_unit(one, one.margin), "margin"),
-            Column("", lambda one: f"{grouped(100.0 * one.used)} %{'' if one.ok else ', outside'}", "used"),
+            Column("", lambda one: f"{grouped(100.0 * one.used)} %", "used"),
             Column("", rule, "whose rule"),
             Column("source", lambda one: one.source),
             Column("note", lambda one: one.note),
@@ -61,16 +63,30 @@ def _whose(finding: RatingFinding, mark: str = "") -> str:
 def sheet_ratings(ratings: Sequence[RatingFinding]) -> tuple[AnswerTable[RatingFinding], list[str]]:
     """Return the ratings as the sheet of a drive has them, and the notes that their sources point to."""
     notes = _notes(ratings)
+    judging = deciding(ratings)
     columns: list[Column[RatingFinding]] = [
         Column("", lambda one: one.name, "rating", side="<"),
+        Column("", lambda one: verdict(one, one in judging), "verdict", side="<"),
         Column("", lambda one: _in_unit(one, one.value), "value"),
         Column("", lambda one: f"{'≥' if one.at_least else '≤'} {_in_unit(one, one.limit)}", "allowed"),
         Column("", lambda one: _in_unit(one, one.margin), "margin"),
         Column("", lambda one: f"{grouped(100.0 * one.used, 3)} %", "used"),
-        Column("", lambda one: "ok" if one.ok else "outside", "verdict", side="<"),
         Column("", lambda one: _whose(one) + _mark(one, notes), "source", side="<"),
     ]
     return AnswerTable(columns, ratings), notes
+
+
+def verdict(finding: RatingFinding, judges: bool) -> str:
+    """Return whether a rating is met, and that it only informs where it does not judge.
+
+    Examples
+    --------
+    >>> pressure = RatingFinding("joint pressure", 27.0, 22.5, "MPa", "GOST practice")
+    >>> verdict(pressure, judges=True), verdict(pressure, judges=False)
+    ('outside', 'outside (informs)')
+    """
+    found = "ok" if finding.ok else "outside"
+    return found if judges else f"{found} (informs)"
 
 
 def rating_text(case: Case) -> str:

@@ -164,7 +164,6 @@ def lubrication_rows(found: DriveLife) -> list[tuple[str, str]]:
             for text, names in states.items()
         ),
         ("wear of the joints", _joint_wear(drive.joint)),
-        ("service factor f1", f"{drive.service_factor:g}, on the power in the ratings"),
         ("joint application factor K_e", f"{drive.joint_application_factor:g}, on the joint pressure"),
         ("friction of the joints", f"{drive.joint_friction or 0.0:g}"),
     ]

@@ -1,7 +1,6 @@
 """The sheet of a whole drive as one page of HTML that fetches nothing and prints on A4."""
 
 from dataclasses import dataclass
-from datetime import date
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,7 @@ from wearsim._version import __version__
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan, planned_events
 from wearsim.errors import OutputError
-from wearsim.files import check_free, new_folder, write_file
+from wearsim.files import check_folder, check_free, new_folder, write_file
 from wearsim.geometry.scene import Circle, Scene
 from wearsim.quantities import grouped
 from wearsim.report import html
@@ -38,9 +37,12 @@ from wearsim.report.drive.page_tables import (
     span_table,
 )
 from wearsim.report.html.page_content import HtmlTable, chain_tables
+from wearsim.report.html.paper import SheetHead, foot
+from wearsim.report.html.pdf import check_pdf, is_pdf, save_pdf
 from wearsim.report.html.sketch import sketch
 from wearsim.report.rating import sheet_ratings
 from wearsim.report.text_lines import unbroken
+from wearsim.report.verification import given_rows, verification_rows
 from wearsim.report.worn_flank import around_flank, worn_flanks
 from wearsim.result import WearResult
 from wearsim.result.ends import first_hours
@@ -50,22 +52,6 @@ _STYLE = Path(html.__file__).with_name("style.css")
 
 _AROUND = 0.12
 """Room around a flank, as a fraction of its extent."""
-
-
-@dataclass(frozen=True)
-class SheetHead:
-    """Who made a sheet of what, and when."""
-
-    on: date
-    project: str = ""
-    author: str = ""
-    drawing: str = ""
-
-    @property
-    def rows(self) -> list[tuple[str, str]]:
-        """What is known of it."""
-        named = (("project", self.project), ("drawing", self.drawing), ("author", self.author))
-        return [(name, text) for name, text in named if text] + [("date", self.on.isoformat())]
 
 
 @dataclass(frozen=True)
@@ -83,6 +69,9 @@ class SheetPage:
 
     title: str
     head: list[tuple[str, str]]
+    foot: Markup  # style of the foot of its printed pages
+    given: list[tuple[str, str]]
+    verification: list[tuple[str, str]]
     life: str  # of what is replaced first
     first: str
     overloaded: str  # empty where it is not
@@ -112,8 +101,11 @@ class SheetPage:
 
 
 def save_sheet(found: DriveLife, head: SheetHead, out: Path, force: bool) -> Path:
-    """Write the page into a file that ends in .html, else as index.html of a folder; return its path."""
+    """Write the page into a file *.html or *.pdf, else as index.html of a folder; return its path."""
     text = sheet_html(found, head)
+    if is_pdf(out):
+        save_pdf(text, out, force)
+        return out
     if is_page(out):
         write_file(out, text, force)
         return out
@@ -127,11 +119,16 @@ def is_page(out: Path) -> bool:
     return out.suffix.lower() in (".html", ".htm")
 
 
-def check_page(out: Path, force: bool) -> None:
-    """Raise where a page cannot be written or replaced."""
-    check_free(out, force)
-    if out.is_dir():
-        raise OutputError(f"{out}: must be a file, but is a folder: choose another place")
+def check_sheet(out: Path, force: bool) -> None:
+    """Raise where a sheet cannot be written or replaced."""
+    if is_pdf(out):
+        check_pdf(out, force)
+    elif is_page(out):
+        check_free(out, force)
+        if out.is_dir():
+            raise OutputError(f"{out}: must be a file, but is a folder: choose another place")
+    else:
+        check_folder(out, force)
 
 
 def sheet_html(found: DriveLife, head: SheetHead) -> str:
@@ -160,6 +157,9 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
     return SheetPage(
         title=drive.title,
         head=head.rows,
+        foot=foot(drive.title, head),
+        given=given_rows(drive.inputs, drive.driver.case),
+        verification=verification_rows(drive.driver.case, driver.ratings),
         life=f"{outside_practice(found)}{first_hours(found.ends, found.life)}",
         first=unbroken(first_text(plan)),
         overloaded=overload_text(driver),

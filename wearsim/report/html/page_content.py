@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from markupsafe import Markup
 
@@ -10,6 +10,7 @@ from wearsim._version import __version__
 from wearsim.case.model import Case
 from wearsim.chain.rating_findings import RatingFinding
 from wearsim.citation import apa
+from wearsim.input.input_origins import input_rows
 from wearsim.quantities import grouped, percentile_meaning, percentile_name, percentile_shares
 from wearsim.report.answer import ending, overload_text, page_findings
 from wearsim.report.answer_table import AnswerTable
@@ -19,11 +20,13 @@ from wearsim.report.flank_view import case_of
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.inputs import Input, catalogue_sources, input_table
 from wearsim.report.html.margins import Margin, margins
+from wearsim.report.html.paper import SheetHead, foot
 from wearsim.report.html.run_charts import along_chart, history_chart, lives_chart, tooth_load_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
 from wearsim.report.rating import ratings_table
 from wearsim.report.text_lines import Finding, stated_and_defaults
+from wearsim.report.verification import given_rows, verification_rows
 from wearsim.result import Life, WearResult
 from wearsim.result.ends import END_HEAD, PartEnd, before_wear, end_rows, first_hours, wear_only
 from wearsim.result.events import EVENT_HEAD, Event, event_rows
@@ -48,6 +51,10 @@ class CasePage:
     name: str  # of the file, and of the drive
     title: str  # of the file, and of the drive
     brief: bool  # whether the page is the short one
+    head: list[tuple[str, str]]  # who made it, and when; empty where nothing is said of it
+    foot: Markup  # style of the foot of its printed pages
+    given: list[tuple[str, str]]  # what was given of a chain that wraps the sprocket
+    verification: list[tuple[str, str]]  # loads, factors and lubrication of such a drive
     first: str  # the answer: hours of what ends first
     ending: str  # what ended it
     life: str  # by wear, with the coefficient as given
@@ -90,9 +97,10 @@ class ComparisonPage:
     citation: str  # how to cite
 
 
-def case_page(result: WearResult, name: str, brief: bool) -> CasePage:
+def case_page(result: WearResult, name: str, brief: bool, head: SheetHead | None = None) -> CasePage:
     """Return the page of one drive."""
     case = case_of(result)
+    known = head is not None and head.says_something
     tooth = tooth_charts(result)
     charts = [] if brief else _charts(result, case)
     figures = comparison_figures([result], {chart.still for chart in (*tooth, *charts)})
@@ -101,6 +109,10 @@ def case_page(result: WearResult, name: str, brief: bool) -> CasePage:
         name=name,
         title=result.title,
         brief=brief,
+        head=head.rows if head and known else [],
+        foot=foot(result.title, head if known else None),
+        given=[] if brief else given_rows(_as_given(result), case),
+        verification=[] if brief else verification_rows(case, result.ratings),
         first=first_hours(result.ends, result.life),
         ending=_ending(result),
         life=hours(result.life),
@@ -127,6 +139,17 @@ def case_page(result: WearResult, name: str, brief: bool) -> CasePage:
         versions=[("page written by", f"wearsim {__version__}"), *result.environment.items()],
         citation=apa(result.environment["wearsim"]),
     )
+
+
+def _as_given(result: WearResult) -> dict[str, Any]:
+    """Return the tables of a case without the keys of which wearsim took the value."""
+    taken = {row.key for row in input_rows(result.inputs, result.assumptions) if row.origin == "taken"}
+    return {
+        name: {key: value for key, value in table.items() if f"{name}.{key}" not in taken}
+        if isinstance(table, dict)
+        else table
+        for name, table in result.inputs.items()
+    }
 
 
 def _ending(result: WearResult) -> str:

@@ -13,6 +13,8 @@ from plotly.offline import get_plotlyjs
 from wearsim._version import __version__
 from wearsim.files import file_names, new_folder
 from wearsim.report.html.page_content import case_page, comparison_page
+from wearsim.report.html.paper import SheetHead
+from wearsim.report.html.pdf import is_pdf, save_pdf
 from wearsim.result import WearResult
 
 _HERE = Path(__file__).parent
@@ -20,27 +22,39 @@ _SCRIPT = "plotly.min.js"
 
 
 def save_report(
-    results: Sequence[WearResult], folder: Path, force: bool, single_file: bool, detail: str
-) -> list[str]:
-    """Write a page for each result, and one that compares them where there are several."""
+    results: Sequence[WearResult],
+    out: Path,
+    force: bool,
+    single_file: bool,
+    detail: str,
+    head: SheetHead | None = None,
+) -> list[Path]:
+    """Write a page for each result, and one that compares them where there are several; return the files.
+
+    They lie in a new folder; the page of a single result may be a PDF.
+    """
     names = file_names([result.case for result in results])
     brief = detail == "brief"
     pages = {
-        f"{name}.html": ("case.html.j2", case_page(result, name, brief))
+        f"{name}.html": ("case.html.j2", case_page(result, name, brief, head))
         for name, result in zip(names, results, strict=True)
     }
+    if is_pdf(out):
+        ((template, page),) = pages.values()
+        save_pdf(render(template, page, single_file=False, several=False), out, force)
+        return [out]
     written: dict[str, tuple[str, Any]] = dict(pages)
     if len(results) == 1:
         written = {"index.html": pages[f"{names[0]}.html"]}
     else:
         written = {"index.html": ("comparison.html.j2", comparison_page(results, names)), **pages}
-    with new_folder(folder, force) as place:
+    with new_folder(out, force) as place:
         for file, (template, page) in written.items():
             text = render(template, page, single_file, several=len(results) > 1)
             (place / file).write_text(text, encoding="utf-8", newline="\n")
         if not single_file:
             (place / _SCRIPT).write_text(get_plotlyjs(), encoding="utf-8", newline="\n")
-    return list(written)
+    return [out / file for file in written]
 
 
 def render(template: str, page: Any, single_file: bool, several: bool) -> str:
