@@ -11,6 +11,7 @@ from wearsim.drive.load_case import load_drive
 from wearsim.input.document import CaseText
 from wearsim.report.drive.report_page import save_sheet
 from wearsim.report.html.paper import SheetHead
+from wearsim.report.html.pdf import save_pdf
 
 pytestmark = [
     pytest.mark.slow,
@@ -69,6 +70,17 @@ def test_a_sheet_prints_on_four_pages_with_nothing_cut(watched, sheets, kind):
         ".every(one => one.scrollWidth <= one.clientWidth + 1 || one.tagName == 'svg')"
     )
     assert watched.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+
+
+@pytest.mark.usefixtures("browser_type_launch_args")
+def test_a_browser_prints_the_sheet_as_pdf(sheets, tmp_path):
+    page = (sheets / "motorcycle-520.html").read_text(encoding="utf-8")
+    out = tmp_path / "sheet.pdf"
+    save_pdf(page, out, force=False)
+    content = out.read_bytes()
+    assert content.startswith(b"%PDF-")
+    assert 1 <= len(re.findall(rb"/Type\s*/Page\b", content)) <= 4
+    assert list(tmp_path.iterdir()) == [out]
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -137,7 +137,7 @@ def test_the_worst_rating_is_named_and_the_rest_are_counted() -> None:
     """Plate fatigue is the worst of two; GOST joint pressure, 216.9 %, is for other chains."""
     quick = ["run.life_tolerance=0.1", "mechanism.phases=1", "run.horizon_hours=5"]
     text = drive_text(drive_life(load_drive(PATHS["packaging-conveyor"], quick)), "drive.toml")
-    worst = "plate fatigue (indicative) 165.1 % and 1 more; plates may fail sooner"
+    worst = "plate fatigue (indicative) 165.1 % and 1 more; life counts wear only"
     assert f"  Ratings    OVERLOADED: {worst}\n" in text
 
 

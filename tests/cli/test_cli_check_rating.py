@@ -105,7 +105,8 @@ def test_table_is_marked_and_narrow(cli, checked, name):
     for found in checked(name)["rating"]:
         assert list(found) == ["name", "value", "limit", "unit", "ok", "source", "note", "load"]
         line = rated[found["name"]]
-        assert ("OUTSIDE" in line) == (not found["ok"])
+        assert ("OUTSIDE" in line or "informs" in line) == (not found["ok"])
+        assert "OUTSIDE" not in line or not found["note"].startswith("for information")
         assert f" {found['unit']} " in line
     warned = [line for line in lines if line.startswith("  warning  outside a rating: ")]
     outside = [found for found in checked(name)["rating"] if not found["ok"]]

@@ -147,7 +147,9 @@ def test_workbook_and_comparison(cli, drive, tmp_path):
     assert rows[2][0] == "overloaded"
     assert (rows[2][2], rows[2][3] or "") == (SAYS, "")
     (at,) = [number for number, row in enumerate(rows) if row[0] == "plate fatigue"]
-    value, allowed, margin = rows[at : at + 3]
+    value, allowed, margin, judged = rows[at : at + 4]
+    assert judged[2:] == ["outside", "ok"]
+    assert ["outside (informs)"] * 2 in [row[2:] for row in rows if row[0] == "joint pressure, verdict"]
     assert (value[1:], allowed[0]) == (
         ["kW", pytest.approx(7.0), pytest.approx(4.6)],
         "plate fatigue, allowed",

@@ -147,7 +147,9 @@ def dry():
 def test_a_rating_that_decides_nothing_is_named_where_it_is_outside(dry):
     """1500 rpm of 1250 rpm recommended."""
     told = " ".join(answer(dry, "dry.toml", explain=True).split())
-    assert "within those that decide, outside recommended speed (indicative) 120 %; most used is " in told
+    assert (
+        "within those that decide, outside recommended speed (for information) 120 %; most used is " in told
+    )
     assert "within all of them" not in told and "most used is recommended speed" not in told
 
 

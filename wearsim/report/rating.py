@@ -94,20 +94,25 @@ def rating_text(case: Case) -> str:
     found = case.drive.ratings(case)
     if not found:
         return ""
-    notes = _notes(found)
+    notes, judging = _notes(found), deciding(found)
     columns: list[Column[RatingFinding]] = [
         Column("", lambda one: one.name, "", side="<24"),
         Column("", lambda one: one.value, "value", grouped, ">7"),
         Column("", lambda one: ">=" if one.at_least else "<=", "", side="^4"),
         Column("", lambda one: one.limit, "limit", grouped, ">7"),
         Column("", lambda one: f"  {one.unit:<5} ", "  unit", side="<8"),
-        Column("", lambda one: "ok" if one.ok else "OUTSIDE", "state", side="<9"),
+        Column("", lambda one: _state(one, one in judging), "state", side="<9"),
         Column("", lambda one: _whose(one, _mark(one, notes)), "whose rule", side="<"),
     ]
     lines = AnswerTable(columns, found).lines("  rating   ")
     rules = " " * lines[0].index("whose rule")
     told = [_folded(note, f"           [{number}] ", " " * 15) for number, note in enumerate(notes, start=1)]
     return "\n".join([*(_folded(line, "", rules) for line in lines), *told])
+
+
+def _state(finding: RatingFinding, judges: bool) -> str:
+    """Return the verdict as the screen has it, of a rule that only informs that it does."""
+    return "ok" if finding.ok else "OUTSIDE" if judges else "informs"
 
 
 def _notes(ratings: Sequence[RatingFinding]) -> list[str]:

@@ -70,9 +70,9 @@ def save_pdf(page: str, out: Path, force: bool) -> None:
 
 
 def _browser(out: Path) -> str:
-    for place in (*map(shutil.which, _NAMES), *_PLACES.get(sys.platform, ())):
+    for place in (*[shutil.which(name) for name in _NAMES], *_PLACES.get(sys.platform, ())):
         if place and Path(place).is_file():
-            return place
+            return str(place)
     raise OutputError(
         f"{out}: a PDF must be printed by Chromium, Chrome or Edge, and none is installed: "
         "install one, or give --out sheet.html and print that page"

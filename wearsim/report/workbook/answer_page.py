@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from wearsim.chain.rating_findings import RatingFinding, deciding
 from wearsim.quantities import quantities
 from wearsim.report.answer import (
     JUMPING,
@@ -13,7 +14,7 @@ from wearsim.report.answer import (
     service_text,
 )
 from wearsim.report.comparison import comparison_table, differing_limits
-from wearsim.report.rating import rule
+from wearsim.report.rating import rule, verdict
 from wearsim.report.workbook.workbook_writer import (
     HEADER,
     SECTION,
@@ -205,11 +206,20 @@ def _write_ratings(page: WorksheetPage, row: int, results: Sequence[WearResult])
         margins = [finding.margin if finding else None for finding in chosen]
         side = "least" if first.at_least else "most"
         _write_row(page, row + 1, name, first.unit, values, f"{name} by {'; '.join(rules)}")
+        judged = [_verdict(finding, result) for finding, result in zip(chosen, results, strict=True)]
         allowed, left = (f"{name}: the {side} that the rule allows", f"{name}: what is left, below 0 outside")
         _write_row(page, row + 2, f"{name}, allowed", first.unit, limits, allowed)
         _write_row(page, row + 3, f"{name}, margin", first.unit, margins, left)
-        row += 3
+        _write_row(page, row + 4, f"{name}, verdict", "", judged, f"{name}: {_VERDICT}")
+        row += 4
     return row + 1
+
+
+_VERDICT = "whether the rule is met; one that informs does not judge this drive"
+
+
+def _verdict(finding: RatingFinding | None, result: WearResult) -> str | None:
+    return None if finding is None else verdict(finding, finding in deciding(result.ratings))
 
 
 def _write_section(page: WorksheetPage, row: int, title: str, last_column: int) -> None:
