@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 _FOOT = (
     "@page {{ @bottom-left {{ content: {text}; {look} }} "
-    '@bottom-right {{ content: "page " counter(page) " of " counter(pages); {look} }} }}'
+    '@bottom-right {{ content: "page " counter(page) " of " counter(pages); white-space: nowrap; {look} }} }}'
 )
 _LOOK = "font: 7.5pt system-ui, sans-serif; color: #333333"
 
