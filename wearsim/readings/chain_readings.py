@@ -7,18 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from wearsim.errors import CaseError, Fault
-from wearsim.readings.dated_rows import (
-    DATE,
-    DatedRows,
-    ServiceTime,
-    in_unit,
-    number,
-    read_dated_rows,
-    service_time,
-)
+from wearsim.readings.dated_rows import NEW, DatedRows, ServiceTime, read_dated_rows, service_time
+from wearsim.readings.kept_tables import DATE, number
 from wearsim.readings.relubrications import (
     EVENTS,
-    NEW,
     RELUBRICATION,
     RelubricationLog,
     event_faults,
@@ -36,6 +28,9 @@ _MOST_PERCENT = 10.0
 _BELOW_NEW = 3.0
 """Errors by which a reading may lie below 0."""
 
+_FROM_NOMINAL = 1.0
+"""Percent by which a new chain may differ from its pitch; ISO 606 allows 0.15 % under its measuring load."""
+
 Holds = Callable[[str], bool]
 Rules = Mapping[str, tuple[Holds, str]]
 
@@ -51,6 +46,7 @@ class ChainReading:
     low: float
     high: float
     error: float  # standard deviation [%]
+    links: int = 0  # that it was read over; 0 where nobody says
 
     @property
     def measured(self) -> bool:
@@ -71,17 +67,48 @@ class ChainReading:
 
 
 @dataclass(frozen=True)
+class NewLength:
+    """The length of the new chain, from which elongations count."""
+
+    pitch: float  # mean of its links [mm]
+    nominal: float  # pitch of the case [mm]
+    error: float = 0.0  # standard deviation of a pitch that was measured, nan if not stated [%]
+
+    @property
+    def measured(self) -> bool:
+        """Whether it was read, not taken from the case."""
+        return self.error != 0.0
+
+    @property
+    def longer(self) -> float:
+        """How much longer than its pitch the new chain was [%]."""
+        return 100.0 * (self.pitch / self.nominal - 1.0)
+
+    def error_with(self, error: float) -> float:
+        """Return the error of an elongation over it; a length of the new chain without one has the same."""
+        if not self.measured:
+            return error
+        return math.hypot(error, error if math.isnan(self.error) else self.error)
+
+
+@dataclass(frozen=True)
 class ChainLog:
     """What was read and done since a chain was new."""
 
     file: str
     time: ServiceTime
+    new: NewLength
     readings: tuple[ChainReading, ...]
     relubrications: RelubricationLog
 
+    @property
+    def odd_links(self) -> bool:
+        """Whether some readings are over an odd number of links."""
+        return any(one.links % 2 for one in self.readings)
+
 
 def elongation_over(length: float, links: int, pitch: float) -> float:
-    """Return the elongation of a chain from its length, pin to pin over an even number of links [%].
+    """Return the elongation of a chain from its length, pin to pin over a number of links [%].
 
     Examples
     --------
@@ -107,20 +134,69 @@ def chain_cells(quantity: str) -> Rules:
             f"must be a number of at most {_MOST_PERCENT:g}",
         ),
     }
-    links = (
-        lambda text: 0.0 < number(text) <= 1e5 and number(text) % 2.0 == 0.0,
-        "must be an even number of links from pin to pin, as inner and outer links grow differently: measure "
-        "over one link fewer",
-    )
+    links = (_is_count, "must be the number of links from pin to pin, a whole number")
+    perhaps = (lambda text: text == "" or _is_count(text), f"{links[1]}, or empty")
     result = (
         lambda text: text in (GO, NO_GO),
         f"must be {GO} (the gauge does not fall in) or {NO_GO} (it falls in)",
     )
     return {
         "value": value.get(quantity, empty),
-        "links": links if quantity == LENGTH else empty,
+        "links": {LENGTH: links, ELONGATION: perhaps}.get(quantity, empty),
         "result": result if quantity == GAUGE else empty,
     }
+
+
+def _is_count(text: str) -> bool:
+    return 0.0 < number(text) <= 1e5 and number(text) % 1.0 == 0.0
+
+
+def odd_error(elongation: float, links: int) -> float:
+    """Return the standard deviation of an elongation because of an odd number of links [%].
+
+    Only outer links grow by joint wear, twice as much as the mean. An odd number of links holds one more or
+    one fewer of them than inner ones: the reading is 1/links too high or too low.
+
+    Examples
+    --------
+    >>> odd_error(0.5, 5), odd_error(0.5, 6)
+    (0.1, 0.0)
+    """
+    return abs(elongation) / links if links % 2 else 0.0
+
+
+def new_length(table: DatedRows, pitch: float) -> NewLength:
+    """Return the length of the new chain by a first row ``new``, without it that of the pitch.
+
+    Raises
+    ------
+    CaseError
+        What is wrong with that row.
+    """
+    line, cells = table.rows[0] if table.rows else (0, {})
+    given = {name: cells.get(name, "") for name in ("value", "links", "error")}
+    if cells.get("quantity") != NEW or not any(given.values()):
+        return NewLength(pitch, pitch)
+    rules = {
+        **{name: rule for name, rule in chain_cells(LENGTH).items() if name != "result"},
+        "error": (lambda text: text == "" or 0.0 < number(text) <= 1e6, "must be a number above 0, or empty"),
+    }
+    faults = [
+        Fault(f"{must} (got {given[name]!r})", name, table.file, line)
+        for name, (holds, must) in rules.items()
+        if not holds(given[name])
+    ]
+    if faults:
+        raise CaseError(faults)
+    length, links = number(given["value"]), int(number(given["links"]))
+    found = NewLength(length / links, pitch, 100.0 * number(given["error"]) / length)
+    if abs(found.longer) > _FROM_NOMINAL:
+        text = (
+            f"{length:g} mm over {links} new links differ by {found.longer:.3g} % from a pitch of {pitch:g} "
+            f"mm, must be {_FROM_NOMINAL:g} % at most: check value, links and chain.pitch_mm"
+        )
+        raise CaseError([Fault(text, "value", table.file, line)])
+    return found
 
 
 def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_error: float) -> ChainLog:
@@ -148,8 +224,9 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
     if faults:
         raise CaseError(sorted(faults, key=lambda fault: fault.line))
     rows = [(line, time.hours(cells[table.time]), cells) for line, cells in table.rows]
+    new = new_length(table, pitch)
     readings = tuple(
-        _reading(line, hours, cells, pitch, usual_error)
+        _reading(line, hours, cells, new, usual_error)
         for line, hours, cells in rows
         if cells["quantity"] in READINGS
     )
@@ -157,7 +234,7 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
         text = f"must hold at least one reading of the chain: {', '.join(READINGS)}"
         raise CaseError([Fault(text, "quantity", table.file)])
     log = ChainLog(
-        file=table.file, time=time, readings=readings, relubrications=relubrication_log(table, time)
+        file=table.file, time=time, new=new, readings=readings, relubrications=relubrication_log(table, time)
     )
     _check_times(log)
     return log
@@ -184,8 +261,6 @@ def _bad_cells(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
             text = cells.get(name, "")
             if not holds(text):
                 hint = ": wearsim calibrate takes readings of the teeth" if text in _OF_TEETH else ""
-                if name == "value" and quantity == LENGTH:
-                    hint = in_unit(text, "mm")
                 yield Fault(f"{must} (got {text!r}){hint}", name, table.file, line)
 
 
@@ -202,19 +277,21 @@ def _backwards(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
 
 
 def _reading(
-    line: int, hours: float, cells: Mapping[str, str], pitch: float, usual_error: float
+    line: int, hours: float, cells: Mapping[str, str], new: NewLength, usual_error: float
 ) -> ChainReading:
     quantity, value = cells["quantity"], number(cells["value"])
     error = number(cells.get("error", ""))
-    low = high = value
-    if quantity == LENGTH:
-        links = int(number(cells["links"]))
-        low = high = elongation_over(value, links, pitch)
-        error *= 100.0 / (links * pitch)
-    error = usual_error if math.isnan(error) else error
     if quantity == GAUGE:
-        return side_of_mark(line, hours, value, cells["result"], error)
-    return ChainReading(line, hours, quantity, low, high, error)
+        return side_of_mark(line, hours, value, cells["result"], usual_error if math.isnan(error) else error)
+    links = int(number(cells["links"])) if cells.get("links") else 0
+    if quantity == LENGTH:
+        value = elongation_over(value, links, new.pitch)
+        error *= 100.0 / (links * new.pitch)
+    error = usual_error if math.isnan(error) else error
+    if quantity == LENGTH:
+        error = new.error_with(error)
+    error = math.hypot(error, odd_error(value, links))
+    return ChainReading(line, hours, quantity, value, value, error, links)
 
 
 def side_of_mark(line: int, hours: float, mark: float, result: str, error: float) -> ChainReading:

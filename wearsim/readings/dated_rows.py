@@ -13,14 +13,28 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.errors import CaseError, Fault
 from wearsim.input.csv_tables import header_faults
-from wearsim.input.units import convert
+from wearsim.readings.day_format import iso_days
+from wearsim.readings.kept_tables import (
+    DATE,
+    HOURS,
+    KM,
+    MILES,
+    Line,
+    decimal_faults,
+    in_units_read,
+    number,
+    split_lines,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
 
 
-HOURS, KM, DATE = "time_hours", "distance_km", "date"
 TIMES = (HOURS, KM, DATE)
+"""Columns that may tell the time, distance_miles read as km."""
+
+NEW = "new"
+"""Row of the time at which a part was new."""
 
 _MOST_HOURS = 1e9
 
@@ -42,6 +56,7 @@ class ServiceTime:
     column: str  # one of `TIMES`
     hours_each: float  # running hours of a km or a day; 1 for hours
     start: date | None  # day on which the part that was measured was new; None where none is known
+    zero: float = 0.0  # what an odometer or hour meter showed when the part was new [h]
 
     def hours(self, text: str) -> float:
         """Return the running hours of a cell; nan where it holds no time.
@@ -52,15 +67,9 @@ class ServiceTime:
         24.0
         """
         if self.column != DATE:
-            return number(text) * self.hours_each
+            return number(text) * self.hours_each - self.zero
         day = _day(text)
         return math.nan if day is None or self.start is None else (day - self.start).days * self.hours_each
-
-    def shown(self, hours: float) -> str:
-        """Return running hours as the column has them; empty where no calendar goes so far."""
-        if self.column != DATE or self.start is None:
-            return f"{hours / self.hours_each:g}"
-        return day_after(self.start, hours / self.hours_each)
 
     def fault(self, text: str) -> str:
         """Return what is wrong with a cell; empty where nothing is.
@@ -76,14 +85,15 @@ class ServiceTime:
         when = ""
         if self.column == DATE and self.start is not None and hours < 0.0:
             when = f", not before service.start_date = {self.start}, when it was new"
-        if self.column != DATE:
-            when = in_unit(text, "km" if self.column == KM else "h")
         return f"must be {self.must} (got {text!r}){when}"
 
     @property
     def must(self) -> str:
         """What a cell must be."""
-        return "a day such as 2026-03-31" if self.column == DATE else "a number of at least 0"
+        if self.column == DATE:
+            return "a day such as 2026-03-31"
+        since = f", as in the row {NEW!r}" if self.zero else ""
+        return f"a number of at least {self.zero / self.hours_each:g}{since}"
 
 
 def day_after(start: date, days: float) -> str:
@@ -99,49 +109,14 @@ def day_after(start: date, days: float) -> str:
     return (start + timedelta(days=int(days))).isoformat()
 
 
-def number(text: str) -> float:
-    """Read a number; nan for anything else, also what only Python takes for one."""
-    try:
-        return float(text) if "_" not in text else math.nan
-    except ValueError:
-        return math.nan
-
-
-def in_unit(text: str, unit: str) -> str:
-    """Return what to write in the place of a number with a unit; empty where a text is none.
-
-    Examples
-    --------
-    >>> in_unit("1000 miles", "km"), in_unit("far", "km")
-    (': write 1609.344, in km', '')
-    """
-    try:
-        return f": write {convert(text, unit):.10g}, in {unit}"
-    except ValueError:
-        return ""
-
-
 def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]) -> DatedRows:
     """Read the cells of a table with one column of times; lines that begin with ``#`` are left out."""
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file)
-            lines = [
-                (reader.line_num, [cell.strip() for cell in line])
-                for line in reader
-                if line and not line[0].startswith("#")
-            ]
-    except (OSError, ValueError, csv.Error) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise CaseError([Fault(f"must be a readable CSV file: {reason}", "", str(path))]) from None
+    lines = _lines(path)
     head, names = lines[0] if lines else (1, [])
-    if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
-        text = "cells must be separated by commas, with points in numbers: export it as such"
-        raise CaseError([Fault(text, "", str(path), head)])
-    times = [name for name in TIMES if name in names]
+    times = [name for name in (*TIMES, MILES) if name in names]
     wrong = header_faults(names, [*times, *required], optional)
     if not times:
-        others = f"{KM} (1.609344 times the miles) or {DATE}"
+        others = f"{KM}, {MILES} or {DATE}"
         wrong.insert(0, f"column {HOURS!r} is missing, or {others} in its place")
     faults = [Fault(text, "", str(path), head) for text in wrong]
     if len(times) > 1:
@@ -155,25 +130,52 @@ def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]
     ]
     if faults:
         raise CaseError(faults)
-    whole = tuple((line, dict(zip(names, cells, strict=True))) for line, cells in rows)
-    return DatedRows(str(path), times[0], head, whole)
+    named = [(line, in_units_read(dict(zip(names, cells, strict=True)))) for line, cells in rows]
+    time = KM if times[0] == MILES else times[0]
+    return DatedRows(str(path), time, head, tuple(_with_days(named, str(path)) if time == DATE else named))
+
+
+def _lines(path: Path) -> list[Line]:
+    """Return the cells of every line of a file."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+        lines = split_lines(text)
+    except (OSError, ValueError, csv.Error) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise CaseError([Fault(f"must be a readable CSV file: {reason}", "", str(path))]) from None
+    faults = [Fault(wrong, name, str(path), line) for line, name, wrong in decimal_faults(text, lines)]
+    if faults:
+        raise CaseError(faults)
+    return lines
+
+
+def _with_days(rows: Sequence[tuple[int, dict[str, str]]], file: str) -> list[tuple[int, dict[str, str]]]:
+    """Return rows with their days as year-month-day."""
+    days, why = iso_days([cells[DATE] for _, cells in rows])
+    if why:
+        line, cells = rows[0]
+        raise CaseError([Fault(f"{cells[DATE]} {why}", DATE, file, line)])
+    return [(line, {**cells, DATE: day}) for (line, cells), day in zip(rows, days, strict=True)]
 
 
 def service_time(table: DatedRows, inputs: Mapping[str, Any]) -> ServiceTime:
     """Return how the times of a table count, by [service] of the case.
 
-    Days count from ``start_date``, without it from the first day of the table.
+    The time of a first row ``new`` is where it begins. Days count from ``start_date`` without such a
+    row, and without it from the first day of the table.
     """
     service: Mapping[str, Any] = inputs.get("service") or {}
-    if table.time == KM:
-        return ServiceTime(KM, 1.0 / _key(table, service, "km_per_hour"), None)
-    if table.time == HOURS:
-        return ServiceTime(HOURS, 1.0, None)
+    first = table.rows[0][1] if table.rows else {}
+    begun = first.get(table.time, "") if first.get("quantity") == NEW else ""
+    if table.time != DATE:
+        each = 1.0 / _key(table, service, "km_per_hour") if table.time == KM else 1.0
+        zero = number(begun) * each
+        return ServiceTime(table.time, each, None, zero if 0.0 <= zero <= _MOST_HOURS else 0.0)
     each = _key(table, service, "hours_per_day")
     days = (_day(cells[DATE]) for _, cells in table.rows)
-    first = min((day for day in days if day is not None), default=None)
-    start = date.fromisoformat(service["start_date"]) if "start_date" in service else first
-    return ServiceTime(DATE, each, start)
+    given = date.fromisoformat(service["start_date"]) if "start_date" in service else None
+    earliest = min((day for day in days if day is not None), default=None)
+    return ServiceTime(DATE, each, _day(begun) or given or earliest)
 
 
 def _key(table: DatedRows, service: Mapping[str, Any], key: str) -> float:

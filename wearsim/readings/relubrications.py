@@ -11,11 +11,14 @@ from wearsim.drive.part_life import case_clock
 from wearsim.errors import CaseError, Fault
 from wearsim.lubrication.model import LubricationInput, RunningWay
 from wearsim.quantities import grouped
-from wearsim.readings.dated_rows import DatedRows, ServiceTime
+from wearsim.readings.dated_rows import NEW, DatedRows, ServiceTime
 
-NEW, RELUBRICATION = "new", "relubrication"
+RELUBRICATION = "relubrication"
 EVENTS = (NEW, RELUBRICATION)
 """Rows that are no readings."""
+
+_BASELINE = ("value", "links", "error")
+"""Columns of a row `NEW` that tell the length of the new chain."""
 
 _AT = "lubrication.at_hours"
 
@@ -78,27 +81,16 @@ def event_faults(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
         event = cells["quantity"]
         if event not in EVENTS:
             continue
+        known = (table.time, "quantity", *(_BASELINE if event == NEW else ()))
         for name, text in cells.items():
-            if name not in (table.time, "quantity") and text:
-                yield Fault(
-                    f"must be empty for {event} (got {text!r}){_instead(event, name)}", name, table.file, line
-                )
+            if name not in known and text:
+                yield Fault(f"must be empty for {event} (got {text!r})", name, table.file, line)
         wrong = time.fault(cells[table.time])
         if wrong:
             yield Fault(wrong, table.time, table.file, line)
-        elif event == NEW and (number or time.hours(cells[table.time]) > 0.0):
-            text = (
-                f"{NEW} must be the first row, at time 0: begin a file for each part, and subtract the "
-                "odometer's or hour meter's reading at its start from every time"
-            )
+        elif event == NEW and number:
+            text = f"{NEW} must be the first row: begin a file for each part"
             yield Fault(text, "quantity", table.file, line)
-
-
-def _instead(event: str, column: str) -> str:
-    """Name the way round for the length of a new chain."""
-    if (event, column) != (NEW, "value"):
-        return ""
-    return ": leave the length of the new chain out, and give later ones as elongation_percent over it"
 
 
 def relubrication_log(table: DatedRows, time: ServiceTime) -> RelubricationLog:

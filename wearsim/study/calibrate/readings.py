@@ -1,5 +1,6 @@
 """What was measured in service, checked to the cell."""
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,8 +15,17 @@ from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.csv_tables import read_columns
 from wearsim.input.faults import Faults
-from wearsim.readings.chain_readings import ELONGATION, GAUGE, LENGTH, chain_cells, elongation_over
-from wearsim.readings.dated_rows import HOURS, DatedRows, ServiceTime, number, read_dated_rows, service_time
+from wearsim.readings.chain_readings import (
+    ELONGATION,
+    GAUGE,
+    LENGTH,
+    chain_cells,
+    elongation_over,
+    new_length,
+    odd_error,
+)
+from wearsim.readings.dated_rows import DatedRows, ServiceTime, read_dated_rows, service_time
+from wearsim.readings.kept_tables import HOURS, number
 from wearsim.readings.relubrications import EVENTS, RelubricationLog, event_faults, relubrication_log
 
 if TYPE_CHECKING:
@@ -71,16 +81,23 @@ def read_readings(path: Path, case: Case) -> tuple[tuple[Reading, ...], Relubric
     found = [_reading(int(str(row)), cells, time, points[row]) for row, cells in table.iterrows()]
     if not found:
         raise CaseError([Fault("must hold at least one reading below its header", "", str(path))])
-    readings = tuple(_elongation(one, cells, case) for one, (_, cells) in zip(found, rows.rows, strict=True))
+    readings = tuple(
+        _elongation(one, cells, whole, case) for one, (_, cells) in zip(found, rows.rows, strict=True)
+    )
     return readings, relubrication_log(whole, time)
 
 
-def _elongation(reading: Reading, cells: Mapping[str, str], case: Case) -> Reading:
-    """Return a length of a chain as its elongation, every other reading as it is."""
-    if reading.quantity != LENGTH or not case.drive.wear_coefficients:
+def _elongation(reading: Reading, cells: Mapping[str, str], table: DatedRows, case: Case) -> Reading:
+    """Return a length of a chain as its elongation, odd links with their error; others as they are."""
+    if reading.quantity not in (LENGTH, ELONGATION) or not case.drive.wear_coefficients:
         return reading
-    links, pitch = int(number(cells["links"])), wrap_of(case).chain.pitch
-    value, error = elongation_over(reading.value, links, pitch), 100.0 * reading.error / (links * pitch)
+    links = int(number(cells["links"])) if cells.get("links") else 0
+    value, error = reading.value, reading.error
+    if reading.quantity == LENGTH:
+        new = new_length(table, wrap_of(case).chain.pitch)
+        value = elongation_over(value, links, new.pitch)
+        error = new.error_with(100.0 * error / (links * new.pitch))
+    error = math.hypot(error, odd_error(value, links))
     return replace(reading, quantity=ELONGATION, value=value, error=error)
 
 

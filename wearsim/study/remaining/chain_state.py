@@ -143,7 +143,7 @@ def _left(case: Case, log: ChainLog, lives: tuple[float, ...]) -> Iterator[Quant
     yield Quantiles("remaining_hours", left)
     if "km_per_hour" in service:
         yield Quantiles("remaining_km", tuple(service["km_per_hour"] * one for one in left))
-    start = date.fromisoformat(service["start_date"]) if "start_date" in service else log.time.start
+    start = log.time.start or (date.fromisoformat(service["start_date"]) if "start_date" in service else None)
     if start is not None:
         ends = [today + one for one in left]
         each = service["hours_per_day"]
@@ -187,6 +187,23 @@ def _assumptions(log: ChainLog, band: WearBand) -> Iterator[str]:
     )
     yield "errors of the readings are normal, independent and as stated; intervals hold no error of the model"
     yield "of a gauge only the side of its mark is known, within its error"
+    yield from _of_lengths(log)
+
+
+def _of_lengths(log: ChainLog) -> Iterator[str]:
+    """Say what lengths count from, and what an odd number of links may hide."""
+    if log.new.measured:
+        yield (
+            f"lengths count from that of the new chain, {log.new.longer:+.2g} % over its pitch, whose error "
+            "counts"
+        )
+    if log.odd_links:
+        yield (
+            "an odd number of links holds one outer link more or fewer than inner ones, and only outer links "
+            "grow by wear: such readings have a part of 1/links more error"
+        )
+    if log.time.zero:
+        yield "times count from the row 'new', where the hour meter or odometer did not show 0"
 
 
 def _warnings(
