@@ -30,6 +30,7 @@ _PUBLIC = {
     "UncertaintyResult": "wearsim.study.uncertainty.answer",
     "WearResult": "wearsim.result",
     "WearsimError": "wearsim.errors",
+    "YearPlanResult": "wearsim.study.maintain.year_answer",
     "calibrate": "wearsim.study.calibrate.answer",
     "check": "wearsim.report.check",
     "export": "wearsim.cad.export",
@@ -67,6 +68,7 @@ if TYPE_CHECKING:
     from wearsim.study.judge.answer import JudgementResult, judge
     from wearsim.study.lubricate.answer import LubricationResult, lubricate
     from wearsim.study.maintain.answer import MaintenanceResult, maintain
+    from wearsim.study.maintain.year_answer import YearPlanResult
     from wearsim.study.optimise.answer import OptimiseResult, optimise
     from wearsim.study.remaining.answer import RemainingResult, remaining
     from wearsim.study.remaining.chain_answer import ChainReadingsResult
@@ -99,6 +101,7 @@ __all__ = [
     "UncertaintyResult",
     "WearResult",
     "WearsimError",
+    "YearPlanResult",
     "__version__",
     "calibrate",
     "check",

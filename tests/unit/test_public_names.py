@@ -17,7 +17,7 @@ NAMES = """
 CalibrationResult Case CaseError ChainReadingsResult CheckResult ContactError ConvergenceError DriveCase
 DriveLife ExportResult GeometryError JudgementResult Life LoadsResult LowerBound LubricationResult
 MaintenanceResult OptimiseResult RemainingResult SelectionResult SweepResult UncertaintyResult WearResult
-WearsimError
+WearsimError YearPlanResult
 __version__ calibrate check export judge load_case loads lubricate maintain optimise progress_bar
 remaining select simulate simulate_many sweep uncertainty
 """

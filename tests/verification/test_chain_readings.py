@@ -12,8 +12,8 @@ from scipy.stats import norm, truncnorm
 import wearsim
 from tests.drives import FAST_WRAP, changed
 from wearsim.readings.chain_readings import side_of_mark
+from wearsim.readings.chain_state import chain_state
 from wearsim.readings.posterior import LEVELS, FactorPrior, factor_posterior
-from wearsim.study.remaining.chain_state import chain_state
 
 WRAP = changed(FAST_WRAP, {"stop.elongation_percent": 3, "service": {"km_per_hour": 30, "hours_per_day": 8}})
 CELLS = "quantity,value,links,result,error"

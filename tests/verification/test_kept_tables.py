@@ -5,7 +5,7 @@ import pytest
 import wearsim
 from tests.drives import FAST_WRAP, changed
 from wearsim.readings.chain_readings import odd_error
-from wearsim.study.remaining.chain_state import chain_state
+from wearsim.readings.chain_state import chain_state
 
 SERVICE = {"km_per_hour": 30, "hours_per_day": 8}
 CASE = changed(FAST_WRAP, {"stop.elongation_percent": 3, "service": SERVICE})

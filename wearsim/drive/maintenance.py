@@ -111,7 +111,7 @@ class DrivePlan:
 
 def drive_plan(found: DriveLife) -> DrivePlan:
     """Return the rules by which the parts of a drive can be replaced, and their cost if prices are given."""
-    lives, prices = part_lives(found), None if found.failed else _prices(found.drive)
+    lives, prices = part_lives(found), None if found.failed else drive_prices(found.drive)
     hours = {name: life.hours_run for name, life in lives.items()}
     worn_out = {name: life.hours for name, life in lives.items() if isinstance(life, Life)}
     chain = hours.pop(CHAIN)
@@ -145,7 +145,8 @@ def part_lives(found: DriveLife) -> dict[str, Life | LowerBound]:
     return lives
 
 
-def _prices(drive: DriveCase) -> Prices | None:
+def drive_prices(drive: DriveCase) -> Prices | None:
+    """Return the prices of the parts of a drive; None where one is not given."""
     tables = {one.name: MaintenanceTable(**one.case.inputs.get("maintenance", {})) for one in drive.sprockets}
     first = tables[drive.sprockets[0].name]
     prices = {

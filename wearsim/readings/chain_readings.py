@@ -1,8 +1,8 @@
 """Dated readings of a chain as people have them: lengths, percent, gauges that fall in or not."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,9 @@ LENGTH, ELONGATION, GAUGE = "chain_length_mm", "elongation_percent", "gauge_perc
 READINGS = (LENGTH, ELONGATION, GAUGE)
 _WORDS = (NEW, *READINGS, RELUBRICATION)
 GO, NO_GO = "go", "no-go"
+
+_SPROCKET = "sprocket"
+"""Column that names the sprocket of a row, empty where it is of the chain."""
 
 _OF_TEETH = ("max_depth_mm", "depth_mm", "over_pins_mm", "profile")
 
@@ -100,6 +103,7 @@ class ChainLog:
     new: NewLength
     readings: tuple[ChainReading, ...]
     relubrications: RelubricationLog
+    sprockets: Mapping[str, float]  # when sprockets that rows name were new, by the hours of the chain [h]
 
     @property
     def odd_links(self) -> bool:
@@ -218,9 +222,12 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
     CaseError
         What is wrong with the table, every cell of it in one pass.
     """
-    table = read_dated_rows(path, ("quantity",), ("value", "error", "links", "result"))
+    whole = read_dated_rows(path, ("quantity",), ("value", "error", "links", "result", _SPROCKET))
+    of_sprockets = [row for row in whole.rows if row[1].get(_SPROCKET)]
+    table = replace(whole, rows=tuple(row for row in whole.rows if not row[1].get(_SPROCKET)))
     time = service_time(table, inputs)
     faults = [*_bad_cells(table, time), *event_faults(table, time), *_backwards(table, time)]
+    faults += _bad_sprockets(of_sprockets, table, time)
     if faults:
         raise CaseError(sorted(faults, key=lambda fault: fault.line))
     rows = [(line, time.hours(cells[table.time]), cells) for line, cells in table.rows]
@@ -234,7 +241,12 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
         text = f"must hold at least one reading of the chain: {', '.join(READINGS)}"
         raise CaseError([Fault(text, "quantity", table.file)])
     log = ChainLog(
-        file=table.file, time=time, new=new, readings=readings, relubrications=relubrication_log(table, time)
+        file=table.file,
+        time=time,
+        new=new,
+        readings=readings,
+        relubrications=relubrication_log(table, time),
+        sprockets={cells[_SPROCKET]: time.hours(cells[table.time]) for _, cells in of_sprockets},
     )
     _check_times(log)
     return log
@@ -262,6 +274,18 @@ def _bad_cells(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
             if not holds(text):
                 hint = ": wearsim calibrate takes readings of the teeth" if text in _OF_TEETH else ""
                 yield Fault(f"{must} (got {text!r}){hint}", name, table.file, line)
+
+
+def _bad_sprockets(
+    rows: Sequence[tuple[int, Mapping[str, str]]], table: DatedRows, time: ServiceTime
+) -> Iterator[Fault]:
+    """Give what is wrong in rows that say when a sprocket was new."""
+    for line, cells in rows:
+        if cells["quantity"] != NEW:
+            text = f"must be {NEW} where a sprocket is named, as readings are of the chain"
+            yield Fault(text, "quantity", table.file, line)
+        if not math.isfinite(time.hours(cells[table.time])):
+            yield Fault(f"must be {time.must} (got {cells[table.time]!r})", table.time, table.file, line)
 
 
 def _backwards(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, WithJsonSchema
+from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from wearsim.input.table import Table
 from wearsim.input.units import Positive, PositiveNumber
@@ -42,6 +42,7 @@ class MaintenanceTable(Table):
     sprocket_price: PositiveNumber | None = None
     downtime_hours: Positive | None = None
     downtime_cost_per_hour: PositiveNumber | None = None
+    currency: Annotated[str, Field(min_length=1, max_length=8)] | None = None
 
     @property
     def stop_cost(self) -> float:

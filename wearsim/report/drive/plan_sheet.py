@@ -119,7 +119,7 @@ def _table(plan: DrivePlan) -> AnswerTable[ReplacementRule]:
     sprockets = [name for name in plan.lives if name != CHAIN]
     each = {name: [name] for name in sprockets}
     groups = {CHAIN: [CHAIN], **(each if len(sprockets) <= _MAX_COLUMNS else {"sprockets": sprockets})}
-    rules, cost = plan.rules, None if plan.rules[0].cost is None else "cost"
+    rules, cost = plan.rules, None if plan.rules[0].cost is None else _with_currency(plan, "cost")
     columns: list[Column[ReplacementRule]] = [
         Column("", lambda rule: rule.name, "in 1000 h", side="<"),
         Column("", lambda rule: _limited(_PER * rule.stop_rate, rule.stops_at_most), "stops"),
@@ -127,6 +127,11 @@ def _table(plan: DrivePlan) -> AnswerTable[ReplacementRule]:
         Column("", lambda rule: _limited(_PER * (rule.cost or 0.0), bool(rule.at_most)), cost),
     ]
     return AnswerTable(columns, rules if len(rules) <= _MAX_RULES else (*rules[:_FIRST], rules[-1]))
+
+
+def _with_currency(plan: DrivePlan, head: str) -> str:
+    currency = (plan.drive.chain_case.inputs.get("maintenance") or {}).get("currency")
+    return f"{head}, {currency}" if currency else head
 
 
 def _counted(names: Sequence[str], rule: ReplacementRule) -> str:

@@ -1,27 +1,34 @@
 """When to replace chain and sprockets, and what that costs."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from wearsim.case.model import Case
 from wearsim.drive.case_input import CaseInput, loaded, with_table
 from wearsim.drive.life import drive_life
 from wearsim.drive.maintenance import DrivePlan, drive_plan
+from wearsim.errors import Allowed, Range, check_ranges
+from wearsim.readings.dated_rows import readings_file
+from wearsim.readings.teeth_as_read import Teeth
 from wearsim.report.answer_table import table_of
 from wearsim.report.drive.plan_sheet import plan_files, plan_json, plan_text
 from wearsim.report.public_answer import DrawnAnswer
 from wearsim.runner.in_threads import Progress, silent
+from wearsim.study.maintain.from_readings import year_plan
 from wearsim.study.maintain.model import MaintenancePlan
 from wearsim.study.maintain.model import maintain as compare_policies
 from wearsim.study.maintain.sheet import maintenance_files, maintenance_json, maintenance_text
+from wearsim.study.maintain.year_answer import YearPlanResult
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
 _NESTED = ("parts", "schedule")
+
+_ALLOWED: dict[str, Allowed] = {"error": Range(above=0.0), "teeth": ("case", "chain")}
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -113,10 +120,34 @@ class MaintenanceResult(DrawnAnswer):
         return plan_files(self.plan, self.text)
 
 
+@overload
+def maintain(
+    case: CaseInput,
+    maintenance: Mapping[str, Any] | None = None,
+    *,
+    readings: "str | PathLike[str] | pd.DataFrame | Sequence[Mapping[str, Any]]",
+    error: float = 0.05,
+    teeth: Teeth = "case",
+    progress: Progress = silent,
+) -> YearPlanResult: ...
+
+
+@overload
 def maintain(
     case: CaseInput, maintenance: Mapping[str, Any] | None = None, *, progress: Progress = silent
-) -> MaintenanceResult:
-    """Compare when to replace the chain and the sprockets of a chain drive.
+) -> MaintenanceResult: ...
+
+
+def maintain(
+    case: CaseInput,
+    maintenance: Mapping[str, Any] | None = None,
+    *,
+    readings: "str | PathLike[str] | pd.DataFrame | Sequence[Mapping[str, Any]] | None" = None,
+    error: float = 0.05,
+    teeth: Teeth = "case",
+    progress: Progress = silent,
+) -> MaintenanceResult | YearPlanResult:
+    """Compare when to replace the chain and the sprockets of a chain drive, or plan a year from readings.
 
     Parameters
     ----------
@@ -125,24 +156,38 @@ def maintain(
     maintenance : mapping, optional
         Prices, elongations and whether the sprocket is turned, in place of the table
         ``[maintenance]`` of the case.
+    readings : path, pandas.DataFrame or sequence of mapping, optional
+        Log of the chain as for `remaining`, to plan the twelve months after its last row.
+    error : float
+        Standard deviation of readings that state none [%].
+    teeth : str
+        Of a plan from readings: ``case``, teeth wear as the case says, or ``chain``, as much faster or
+        slower than that as the chain does by its readings.
     progress : callable, optional
         Told how much is done, from 0 to 1.
 
     Returns
     -------
-    MaintenanceResult
-        ``policies``, and ``tooth_counts`` of one sprocket or ``parts`` and ``schedule`` of a drive.
+    MaintenanceResult or YearPlanResult
+        ``policies``, and ``tooth_counts`` of one sprocket or ``parts`` and ``schedule`` of a drive; with
+        readings ``jobs`` and ``parts``.
 
     Raises
     ------
     CaseError
-        The case has no chain that wraps a sprocket, or is wrong.
+        The case has no chain that wraps a sprocket, or case or readings are wrong.
+    GeometryError
+        Error or teeth are outside their ranges.
     ContactError, ConvergenceError
         No policy can be run.
     """
+    source = str(case) if isinstance(case, str | PathLike) else ""
     found = loaded(case if maintenance is None else with_table(case, "maintenance", maintenance))
+    if readings is not None:
+        check_ranges("maintain", {"error": error, "teeth": teeth}, _ALLOWED)
+        with readings_file(readings) as file:
+            return YearPlanResult(year_plan(found, file, teeth, error, progress), source)
     if isinstance(found, Case):
         found.drive.check(found)
         return MaintenanceResult(compare_policies(found, lambda done, of: progress(done / of)))
-    source = str(case) if isinstance(case, str | PathLike) else ""
     return MaintenanceResult(drive_plan(drive_life(found, progress).complete()), source)

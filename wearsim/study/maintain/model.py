@@ -79,6 +79,7 @@ class MaintenancePlan:
     # assumptions, warnings: what the case takes for granted, and what the user should look at
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
+    currency: str = ""  # of the prices
 
     @property
     def cheapest(self) -> ReplacementPolicy | None:
@@ -138,6 +139,7 @@ def maintain(case: Case, progress: Progress = lambda done, of: None) -> Maintena
         conventions=(*CONVENTIONS, *((TURN_CONVENTION,) if table.turn_sprocket else ())),
         assumptions=case.assumptions,
         warnings=tuple(dict.fromkeys(warnings)),
+        currency=table.currency or "",
     )
 
 

@@ -13,6 +13,7 @@ from wearsim.study.maintain.tooth_count import ToothCount
 
 def policies_table(plan: MaintenancePlan) -> AnswerTable[ReplacementPolicy]:
     """Return a row for every policy."""
+    cost = "cost per 1000 h" + (f", {plan.currency}" if plan.currency else "")
     return AnswerTable(
         [
             Column("replace_at_percent", _percent, "replace at", "{:g} %"),
@@ -31,7 +32,7 @@ def policies_table(plan: MaintenancePlan) -> AnswerTable[ReplacementPolicy]:
             Column("life_reached", _reached),
             Column("hours_run", lambda one: one.hours),
             Column("stops", lambda one: one.stops if _reached(one) else None, "stops"),
-            Column("cost_per_1000_h", lambda one: one.cost, "cost per 1000 h", grouped),
+            Column("cost_per_1000_h", lambda one: one.cost, cost, grouped),
             Column("numerical_error", lambda one: one.numerical_error),
         ],
         plan.policies,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, overload
 from wearsim.case.model import Case
 from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.errors import Allowed, Range, check_ranges
+from wearsim.readings.chain_state import chain_state
 from wearsim.readings.dated_rows import readings_file
 from wearsim.report.answer_table import table_of
 from wearsim.report.public_answer import Answer
@@ -15,7 +16,6 @@ from wearsim.result import Life, LowerBound
 from wearsim.result.lives import hours as in_hours
 from wearsim.runner.in_threads import Progress, silent
 from wearsim.study.remaining.chain_answer import ChainReadingsResult
-from wearsim.study.remaining.chain_state import chain_state
 from wearsim.study.remaining.model import (
     DEPTH,
     ELONGATION,

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from wearsim.quantities import grouped
+from wearsim.readings.chain_state import ChainState
 from wearsim.report.public_answer import DrawnAnswer
 from wearsim.study.remaining.chain_sheet import (
     chain_files,
@@ -13,7 +14,6 @@ from wearsim.study.remaining.chain_sheet import (
     intervals_table,
     readings_table,
 )
-from wearsim.study.remaining.chain_state import ChainState
 
 if TYPE_CHECKING:
     import pandas as pd

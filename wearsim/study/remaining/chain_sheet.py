@@ -7,10 +7,10 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.readings.chain_readings import GAUGE, ChainReading
+from wearsim.readings.chain_state import ChainState, Quantiles
 from wearsim.readings.relubrications import relubrication_rows
 from wearsim.report.answer_table import AnswerTable, Column
 from wearsim.report.text_lines import Finding, answer_text, closing, fenced
-from wearsim.study.remaining.chain_state import ChainState, Quantiles
 
 _DIGITS = {"elongation_percent": 3, "coefficient_factor": 3}
 """Digits of what is no time."""

@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from wearsim.readings.chain_readings import ChainReading
+from wearsim.readings.chain_state import ChainState
 from wearsim.report.text_lines import literal
-from wearsim.study.remaining.chain_state import ChainState
 
 _LETTERS = 88
 """Letters of a line of the title."""

@@ -59,6 +59,13 @@ class ChainState:
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
 
+    def day(self, hours: float) -> str:
+        """Return the day after so many hours since the chain was new; empty where no day is known."""
+        start, service = _start(self.case, self.log), self.case.inputs.get("service") or {}
+        if start is None or "hours_per_day" not in service:
+            return ""
+        return day_after(start, hours / service["hours_per_day"])
+
     def of(self, name: str) -> Quantiles:
         """Return the quantiles of a quantity."""
         return next(one for one in self.quantiles if one.name == name)
@@ -143,11 +150,17 @@ def _left(case: Case, log: ChainLog, lives: tuple[float, ...]) -> Iterator[Quant
     yield Quantiles("remaining_hours", left)
     if "km_per_hour" in service:
         yield Quantiles("remaining_km", tuple(service["km_per_hour"] * one for one in left))
-    start = log.time.start or (date.fromisoformat(service["start_date"]) if "start_date" in service else None)
+    start = _start(case, log)
     if start is not None:
         ends = [today + one for one in left]
         each = service["hours_per_day"]
         yield Quantiles("end_date", tuple(day_after(start, one / each) for one in ends))
+
+
+def _start(case: Case, log: ChainLog) -> date | None:
+    """Return the day on which the chain was new; None where it is not known."""
+    given = (case.inputs.get("service") or {}).get("start_date")
+    return log.time.start or (date.fromisoformat(given) if given else None)
 
 
 def _beside(one: ChainReading, predicted: float) -> WearReading:

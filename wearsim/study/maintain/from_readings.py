@@ -1,0 +1,202 @@
+"""The next twelve months of a drive from the readings of its chain."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from wearsim.case.keys import MaintenanceTable
+from wearsim.case.model import Case
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.life import drive_life
+from wearsim.drive.maintenance import drive_prices, part_lives
+from wearsim.drive.part_life import simulate
+from wearsim.drive.replacement_rules import Prices
+from wearsim.errors import CaseError, Fault
+from wearsim.readings.chain_state import ChainState, chain_state
+from wearsim.readings.teeth_as_read import TEETH_WORDS, Teeth
+from wearsim.result import Life, LowerBound
+from wearsim.result.ends import CHAIN
+from wearsim.runner.in_threads import Progress
+from wearsim.study.maintain.as_read import drive_as_read
+from wearsim.study.maintain.year_plan import (
+    KEEP,
+    REPLACE,
+    Job,
+    PartNow,
+    kept_parts,
+    relubrications,
+    replacements,
+    total,
+    year_of_hours,
+)
+
+SPROCKET = "sprocket"
+
+
+@dataclass(frozen=True, eq=False)
+class YearPlan:
+    """What to do in the next twelve months."""
+
+    given: Case | DriveCase
+    state: ChainState
+    parts: tuple[PartNow, ...]  # the chain first
+    prices: Prices | None
+    currency: str  # of the prices; empty where none is named
+    teeth: Teeth
+    jobs: tuple[Job, ...]  # in the order of time
+    warnings: tuple[str, ...]
+
+    @property
+    def hours(self) -> float:
+        """Running hours of twelve months."""
+        return year_of_hours(self.state.case.inputs["service"]["hours_per_day"])
+
+    @cached_property
+    def rows(self) -> tuple[Job, ...]:
+        """Jobs, and below them the parts that are kept."""
+        return (*self.jobs, *kept_parts(self.parts, self.jobs))
+
+    @property
+    def total(self) -> float | None:
+        """What all jobs cost; None where a price is missing."""
+        return total(self.jobs)
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What the plan takes for granted."""
+        of_case = self.state.case.assumptions
+        return (*_conventions(self), *(text for text in self.state.assumptions if text not in of_case))
+
+
+def year_plan(
+    given: Case | DriveCase, path: Path, teeth: Teeth, error: float, progress: Progress
+) -> YearPlan:
+    """Return the plan of the next twelve months, counted from the last row of a log.
+
+    The chain stands where its readings say, with the interval of its life. Sprockets have run since they were
+    new, by rows ``new`` with their names, else since the chain was new.
+
+    Raises
+    ------
+    CaseError
+        What is wrong with case or readings, or what a plan by days needs beside.
+    ContactError, ConvergenceError
+        The run of a sprocket fails.
+    """
+    state = chain_state(given, path, error)
+    _check_days(state)
+    lives = _lives(drive_as_read(given, state, teeth), progress)
+    _check_names(state, lives)
+    parts = _parts(state, lives)
+    prices = _prices(given)
+    until = year_of_hours(state.case.inputs["service"]["hours_per_day"])
+    jobs = [*replacements(parts, until, prices), *_relubrications(state, until)]
+    table = (given.chain_case.inputs.get("maintenance") or {}).get("currency", "")
+    return YearPlan(
+        given=given,
+        state=state,
+        parts=parts,
+        prices=prices,
+        currency=table,
+        teeth=teeth,
+        jobs=tuple(sorted(jobs, key=lambda job: job.hours)),
+        warnings=(*state.warnings, *_not_known(parts, until)),
+    )
+
+
+def _check_days(state: ChainState) -> None:
+    """Raise where hours have no days."""
+    service = state.case.inputs.get("service") or {}
+    if "hours_per_day" not in service:
+        text = "a plan of twelve months needs it, or --set service.hours_per_day=VALUE"
+        raise CaseError([Fault(text, "service.hours_per_day", state.case.name)])
+    if not state.day(0.0):
+        text = "a plan by days needs it, or a log by date; or --set service.start_date=DAY"
+        raise CaseError([Fault(text, "service.start_date", state.case.name)])
+
+
+def _check_names(state: ChainState, lives: Mapping[str, Life | LowerBound]) -> None:
+    """Raise where a row is of a sprocket that the drive has not."""
+    known = [name for name in lives if name != CHAIN]
+    faults = [
+        Fault(f"must be one of {', '.join(known)} (got {name!r})", SPROCKET, state.log.file)
+        for name in state.log.sprockets
+        if name not in known
+    ]
+    if faults:
+        raise CaseError(faults)
+
+
+def _lives(case: Case | DriveCase, progress: Progress) -> Mapping[str, Life | LowerBound]:
+    if isinstance(case, DriveCase):
+        return part_lives(drive_life(case, progress).complete())
+    return {CHAIN: LowerBound(0.0, 0.0), SPROCKET: simulate(case, progress).parts[SPROCKET]}
+
+
+def _parts(state: ChainState, lives: Mapping[str, Life | LowerBound]) -> tuple[PartNow, ...]:
+    """Return chain and sprockets as they are on the day of the last row."""
+    today, of_chain = state.log.relubrications.today, state.of("life_hours")
+    low, *_, high = (value for value in state.of("remaining_hours").values if isinstance(value, float))
+    assert isinstance(of_chain.middle, float)
+    chain = PartNow(CHAIN, of_chain.middle, today, True, low, high)
+    sprockets = [
+        PartNow(name, life.hours_run, today - state.log.sprockets.get(name, 0.0), isinstance(life, Life))
+        for name, life in lives.items()
+        if name != CHAIN
+    ]
+    return (chain, *sprockets)
+
+
+def _prices(given: Case | DriveCase) -> Prices | None:
+    if isinstance(given, DriveCase):
+        return drive_prices(given)
+    table = MaintenanceTable(**given.inputs.get("maintenance", {}))
+    if table.chain_price is None or table.sprocket_price is None:
+        return None
+    return Prices(table.chain_price, {SPROCKET: table.sprocket_price}, table.stop_cost)
+
+
+def _relubrications(state: ChainState, until: float) -> list[Job]:
+    """Return relubrications as they were logged and go on, else as the case says."""
+    log, given = state.log.relubrications, state.case.lubrication
+    if given is None:
+        return []
+    if log.hours:
+        return relubrications(log.to_come - log.today, log.mean_interval, until, given.application_cost)
+    every = given.interval.hours if given.interval is not None else 0.0
+    if not every > 0.0:
+        return []
+    done = max((hours for hours in (*given.at_hours, 0.0) if hours <= log.today), default=0.0)
+    first = done + every * math.ceil((log.today - done) / every) - log.today
+    return relubrications(first, every, until, given.application_cost)
+
+
+def _not_known(parts: tuple[PartNow, ...], until: float) -> Iterator[str]:
+    """Say of which parts it is not known whether they last for the year."""
+    for one in parts:
+        if not one.worn_out and one.left < until:
+            yield (
+                f"{one.name} did not wear out in its run of {one.life:.4g} h, of which {one.left:.4g} h are "
+                "left: whether it lasts for the year is not known, a longer run.horizon_hours may tell"
+            )
+        if one.used < 0.0:
+            yield f"{one.name} is new only {-one.used:.4g} h after the last row of the log"
+
+
+def _conventions(plan: YearPlan) -> Iterator[str]:
+    yield TEETH_WORDS[plan.teeth]
+    yield "days count from the last row of the log, at the running hours of a day in [service]"
+    new = plan.state.log.sprockets
+    alike = [one.name for one in plan.parts if one.name != CHAIN and one.name not in new]
+    if alike:
+        yield f"{', '.join(alike)}: new with this chain, without a row 'new' of their own"
+    if any(job.job == REPLACE for job in plan.jobs):
+        yield (
+            "replacement parts last as long as the present ones; a stop costs the same whatever is replaced "
+            "in it; a part goes before its end where its unused life is worth at most a stop"
+            + ("" if plan.prices else " (without prices: where it makes the fewest stops)")
+        )
+    if any(row.job == KEEP for row in plan.rows):
+        yield "kept parts are shown with the day on which they are worn out"
