@@ -14,6 +14,7 @@ from wearsim.extras import check_installed
 from wearsim.geometry.measured.registration import Freedom
 from wearsim.quantities import grouped
 from wearsim.readings.dated_rows import readings_file
+from wearsim.readings.teeth_as_read import Teeth
 from wearsim.report.public_answer import DrawnAnswer
 from wearsim.study.calibrate.calibration import Calibration, CalibrationOptions
 from wearsim.study.calibrate.model import calibrate as fitted
@@ -34,6 +35,7 @@ _ALLOWED: dict[str, Allowed] = {
     "register": ("turn", "free", "none"),
     "cutoff": Range(0.01, 100.0),
     "confidence": Range(0.5, 0.999),
+    "teeth": ("case", "chain"),
 }
 
 
@@ -119,6 +121,7 @@ def calibrate(
     register: Freedom = "turn",
     cutoff: float = 0.8,
     confidence: float = 0.9,
+    teeth: Teeth = "case",
 ) -> CalibrationResult:
     """Fit the wear coefficients of a case to readings, and tell the hours left.
 
@@ -138,6 +141,9 @@ def calibrate(
         Cut-off wavelength of the filter of profiles [mm].
     confidence : float
         Of the intervals.
+    teeth : str
+        What the teeth of the fitted case wear by where only the chain was read: ``case``, what the case
+        says, or ``chain``, as much faster or slower than that as the joints do.
 
     Returns
     -------
@@ -149,11 +155,11 @@ def calibrate(
     CaseError
         What is wrong with the case or the readings, or pandera is not installed (extra ``study``).
     GeometryError
-        Register, cutoff or confidence are outside their ranges.
+        Register, cutoff, confidence or teeth are outside their ranges.
     """
     check_installed(("pandera",), "study", "calibrate")
-    given_options = {"register": register, "cutoff": cutoff, "confidence": confidence}
+    given_options = {"register": register, "cutoff": cutoff, "confidence": confidence, "teeth": teeth}
     check_ranges("calibrate", given_options, _ALLOWED)
-    options = CalibrationOptions(tuple(fit), register, cutoff, confidence)
+    options = CalibrationOptions(tuple(fit), register, cutoff, confidence, teeth)
     with readings_file(readings) as file:
         return CalibrationResult(fitted(given_input(case), file, (), options))

@@ -8,6 +8,7 @@ from wearsim.case.model import Case
 from wearsim.geometry.measured.registration import Freedom
 from wearsim.geometry.profile_points import Vector
 from wearsim.readings.relubrications import RelubricationLog
+from wearsim.readings.teeth_as_read import Teeth
 from wearsim.study.calibrate.least_squares import ConfidenceInterval
 from wearsim.study.calibrate.observations import ReadingResidual
 
@@ -20,6 +21,7 @@ class CalibrationOptions:
     freedom: Freedom = "turn"  # how profiles may be moved: `none`, `turn` or `free`
     cutoff: float = 0.8  # cut-off wavelength of their filter [mm]
     confidence: float = 0.9  # of the intervals
+    teeth: Teeth = "case"  # what the teeth of the fitted case wear by where only the chain was read
 
 
 @dataclass(frozen=True)

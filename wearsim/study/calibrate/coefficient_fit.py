@@ -99,6 +99,11 @@ class CaseFit:
             )
             raise CaseError([Fault(text, "", self.file)])
 
+    @property
+    def teeth_follow(self) -> bool:
+        """Whether the teeth take the factor of the chain."""
+        return self.parameters.chain and not self.parameters.teeth and self.options.teeth == "chain"
+
     def calibration(self) -> Calibration:
         """Return the whole answer."""
         found = self._fit()
@@ -277,6 +282,10 @@ class CaseFit:
                 tables = replaced(tables, (one.key.partition(".")[0], "band_factor"), band)
         if self.parameters.chain:
             tables = replaced(tables, JOINT_SOURCE.split("."), self._source())
+        if self.teeth_follow:
+            (joints,) = values
+            teeth = joints.value / joints.in_case * self.parameters.coefficient
+            tables = replaced(tables, coefficient_key(self.case).split("."), teeth)
         longest = max(part.life for part in parts)
         horizon = max(self.case.run.horizon_hours, _ENOUGH * longest)
         if self.time.log.hours:

@@ -11,6 +11,7 @@ from wearsim.command.options import common_options, finite, overrides, working
 
 if TYPE_CHECKING:
     from wearsim.geometry.measured.registration import Freedom
+    from wearsim.readings.teeth_as_read import Teeth
 
 
 @click.command(short_help="Fit wear coefficients to measurements; remaining hours.")
@@ -49,6 +50,13 @@ if TYPE_CHECKING:
     callback=finite,
     help="Confidence level of the intervals.",
 )
+@click.option(
+    "--teeth",
+    type=click.Choice(("case", "chain")),
+    default="case",
+    show_default=True,
+    help="Of readings of the chain alone: teeth wear as the case says, or by the factor of the chain.",
+)
 @shown_options("tables and pictures")
 @overrides
 @common_options
@@ -59,6 +67,7 @@ def calibrate(
     register: "Freedom",
     cutoff_mm: float,
     confidence: float,
+    teeth: "Teeth",
     shown: Shown,
     settings: tuple[str, ...],
 ) -> None:
@@ -80,7 +89,7 @@ def calibrate(
     from wearsim.study.calibrate.calibration import CalibrationOptions
     from wearsim.study.calibrate.model import calibrate as calibrated
 
-    options = CalibrationOptions(shapes, register, cutoff_mm, confidence)
+    options = CalibrationOptions(shapes, register, cutoff_mm, confidence, teeth)
     with working(f"fitting {case.stem}"):
         found = calibrated(case, measurements, settings, options)
     shown.save(CalibrationResult(found), case)

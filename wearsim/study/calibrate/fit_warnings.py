@@ -19,6 +19,7 @@ from wearsim.readings.contradictions import (
     contradictions,
 )
 from wearsim.readings.relubrications import RelubricationLog
+from wearsim.readings.teeth_as_read import TEETH_WORDS
 from wearsim.runner.scatter import coefficient_key
 from wearsim.study.calibrate.calibration import CalibrationOptions, FittedCoefficient, PartLife
 from wearsim.study.calibrate.least_squares import LeastSquaresFit
@@ -59,6 +60,8 @@ def fit_assumptions(
             f"filter of ISO 16610-21, cut-off {options.cutoff:g} mm; the model is smoothed alike"
         )
     chain, teeth = (any(one.of_chain == of_chain for one in readings) for of_chain in (True, False))
+    if chain and not teeth:
+        yield TEETH_WORDS[options.teeth]
     if chain and teeth and log.hours:
         yield "sprocket and chain were both new at time 0 of the log"
     if case.drive.wear_coefficients and teeth:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.drive_case import DriveCase, with_one_wear
 from wearsim.drive.load_case import load_case
 from wearsim.input.document import CaseSource, read_document
 from wearsim.runner.scaled_percentiles import check_no_running_in
@@ -31,6 +31,8 @@ def calibrate(
     options = options or CalibrationOptions()
     document = read_document(source, overrides)
     given = load_case(source, overrides)
+    if options.teeth == "chain":
+        with_one_wear(given)
     case = given.chain_case
     check_no_running_in(case, "calibrate")
     readings, log = read_readings(measurements, case)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wearsim.case.model import Case, WearBand
+from wearsim.chain.joint_wear import JointLaw
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.part_life import simulate
 from wearsim.drive.wrap_life import chain_clock, wrap_of
@@ -170,10 +171,24 @@ def _chain(case: Case, reading: SingleReading) -> _PartHistory:
         hours=np.array([0.0, life.hours]),
         values=np.array([0.0, 100.0 * contact.elongation_limit]),
         life=life,
-        coefficient=drive.joint.coefficient,
-        assumptions=(*_CONSTANT, *case.assumptions),
+        coefficient=drive.referred_here.joint.coefficient,
+        assumptions=(*_CONSTANT, _where_it_holds(drive.referred_here.joint.law), *case.assumptions),
         warnings=case.warnings,
         exponent=case.wear.cycles_exponent,
+    )
+
+
+def _where_it_holds(law: JointLaw) -> str:
+    """Say where the coefficient of joints holds, and how it gets into the case."""
+    if law.is_constant:
+        return (
+            "as joint.specific_wear_rate_mm2_per_N of the case, with joint.source beside it, the coefficient "
+            "gives this reading and is not doubted"
+        )
+    pressure, speed, pitch = law.reference
+    return (
+        f"the coefficient holds at {pressure:.4g} MPa, {speed:.4g} rpm and {pitch:.4g} mm pitch, elsewhere "
+        "by joint.law = 'pressure_speed': wearsim calibrate --out writes the case with it"
     )
 
 
