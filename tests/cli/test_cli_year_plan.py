@@ -127,3 +127,15 @@ def test_what_a_plan_needs_is_named(plan, log, message):
     done = plan(log=log, as_json=False)
     assert done.code == 2
     assert message in done.err
+
+
+def test_chains_in_rotation_are_replaced_together(plan):
+    """Two chains by turns for 165 and 166 days, 1.5 % each: both worn after as long again, for 2 times 20."""
+    log = (
+        "date;quantity;value;error;chain\n01.01.2026;new;;;A\n15.06.2026;elongation_percent;1,5;0,01;A\n"
+        "15.06.2026;new;;;B\n28.11.2026;elongation_percent;1,5;0,01;B\n"
+    )
+    found = plan(log=log)
+    (job,) = (job for job in found["jobs"] if job["job"] == "replace")
+    assert (job["date"][:7], job["cost"]) == ("2027-10", 2 * 20 + 30)
+    assert job["hours"] == pytest.approx(331 * 16, rel=0.02)

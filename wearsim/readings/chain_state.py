@@ -13,7 +13,8 @@ from wearsim.drive.wrap_life import chain_clock, wrap_of
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.drive import instead_of
-from wearsim.readings.chain_readings import NO_GO, ChainLog, ChainReading, read_chain_log
+from wearsim.readings.chain_log import ChainLog, read_chain_log
+from wearsim.readings.chain_readings import NO_GO, ChainReading
 from wearsim.readings.contradictions import (
     CHAIN,
     JOINTS,
@@ -66,6 +67,17 @@ class ChainState:
             return ""
         return day_after(start, hours / service["hours_per_day"])
 
+    def of_chain(self, name: str) -> tuple[Quantiles, Quantiles]:
+        """Return elongation now [%] and hours left of a chain in rotation."""
+        assert self.log.rotation is not None
+        run, lives = self.log.rotation.hours[name], self.of("life_hours").values
+        grown = float(np.interp(run, self.course_hours, self.course))
+        left = [max(one - run, 0.0) for one in lives if isinstance(one, float)]
+        return (
+            Quantiles("elongation_percent", tuple(grown * one for one in self.posterior.quantiles)),
+            Quantiles("remaining_hours", tuple(left)),
+        )
+
     def of(self, name: str) -> Quantiles:
         """Return the quantiles of a quantity."""
         return next(one for one in self.quantiles if one.name == name)
@@ -106,7 +118,7 @@ def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainSta
     """Return what a log says, by the clock of the wear as it ran and goes on."""
     cycles_per_chain = wrap_of(as_logged).contact(as_logged).cycles_per_mate
     clock, per_hour = chain_clock(as_logged), as_logged.cycles_per_hour
-    today = log.relubrications.today
+    today = log.today
     rate = limit / cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
     band = as_logged.drive.wear_band("chain", as_logged.wear)
@@ -144,15 +156,18 @@ def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainSta
 
 def _left(case: Case, log: ChainLog, lives: tuple[float, ...]) -> Iterator[Quantiles]:
     """Give what is left from the last row on, in the measures that the case knows."""
-    today = log.relubrications.today
-    left = tuple(max(one - today, 0.0) for one in lives)
+    left = tuple(max(one - log.today, 0.0) for one in lives)
     service = case.inputs.get("service") or {}
     yield Quantiles("remaining_hours", left)
     if "km_per_hour" in service:
         yield Quantiles("remaining_km", tuple(service["km_per_hour"] * one for one in left))
+    of_all = left
+    if log.rotation is not None:
+        of_all = tuple(sum(max(one - run, 0.0) for run in log.rotation.hours.values()) for one in lives)
+        yield Quantiles("remaining_hours_of_all", of_all)
     start = _start(case, log)
     if start is not None:
-        ends = [today + one for one in left]
+        ends = [log.machine + one for one in of_all]
         each = service["hours_per_day"]
         yield Quantiles("end_date", tuple(day_after(start, one / each) for one in ends))
 
@@ -166,11 +181,15 @@ def _start(case: Case, log: ChainLog) -> date | None:
 def _beside(one: ChainReading, predicted: float) -> WearReading:
     """Return a reading beside what a fit says of it [%]."""
     words = f"{one.mark:.4g} %" if one.measured else f"{one.result} at {one.mark:g} %"
-    return WearReading(one.line, one.hours, CHAIN, one.low, one.high, one.error, predicted, words)
+    kind = f"{CHAIN} {one.chain}".strip()
+    words += f" of {kind}" if one.chain else ""
+    return WearReading(one.line, one.hours, kind, one.low, one.high, one.error, predicted, words)
 
 
 def _check_within(log: ChainLog, limit: float, excluding: Sequence[Contradiction], life: float) -> None:
     """Raise where a reading says that the limit is reached, and no other one nor all together deny it."""
+    if log.rotation is not None:
+        return  # a chain that is worn out waits for the others
     denied = {one.line for pair in excluding for one in (pair.earlier, pair.later)}
     faults = []
     for one in log.readings:
@@ -229,5 +248,5 @@ def _warnings(
             "them, the load and the lubrication; their errors are taken as so much larger"
         )
     yield from log.relubrications.warnings()
-    if lives[0] <= log.relubrications.today:
+    if lives[0] <= log.today:
         yield "the limit may be reached already: measure again, with a smaller error"

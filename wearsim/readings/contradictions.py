@@ -55,7 +55,9 @@ class Contradiction:
         todo = "measure again, and remove the wrong one"
         if then.hours > first.hours:
             before += f", {grouped(then.hours - first.hours)} h before"
-            grows = "chains do not become shorter" if first.kind == CHAIN else "wear does not grow back"
+            grows = (
+                "chains do not become shorter" if first.kind.startswith(CHAIN) else "wear does not grow back"
+            )
             why = f"{grows}; " if self.shrinks else ""
             at_one_rate = "" if self.shrinks else " at one rate of wear"
             todo = "check both" if self.shrinks else "check both, the load and the lubrication"
@@ -67,7 +69,7 @@ class Contradiction:
 
 
 CHAIN = "chain"
-"""Kind of all readings of the elongation of a chain."""
+"""Kind of all readings of the elongation of a chain; of several in rotation with the name behind."""
 
 
 def contradictions(readings: Sequence[WearReading]) -> list[Contradiction]:

@@ -15,15 +15,8 @@ from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.csv_tables import read_columns
 from wearsim.input.faults import Faults
-from wearsim.readings.chain_readings import (
-    ELONGATION,
-    GAUGE,
-    LENGTH,
-    chain_cells,
-    elongation_over,
-    new_length,
-    odd_error,
-)
+from wearsim.readings.chain_lengths import new_length
+from wearsim.readings.chain_readings import ELONGATION, GAUGE, LENGTH, chain_cells, elongation_over, odd_error
 from wearsim.readings.dated_rows import DatedRows, ServiceTime, read_dated_rows, service_time
 from wearsim.readings.kept_tables import HOURS, number
 from wearsim.readings.relubrications import EVENTS, RelubricationLog, event_faults, relubrication_log

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -90,7 +90,7 @@ def year_plan(
     lives = _lives(drive_as_read(given, state, teeth), progress)
     _check_names(state, lives)
     parts = _parts(state, lives)
-    prices = _prices(given)
+    prices = _of_all_chains(_prices(given), state)
     until = year_of_hours(state.case.inputs["service"]["hours_per_day"])
     jobs = [*replacements(parts, until, prices), *_relubrications(state, until)]
     table = (given.chain_case.inputs.get("maintenance") or {}).get("currency", "")
@@ -137,10 +137,13 @@ def _lives(case: Case | DriveCase, progress: Progress) -> Mapping[str, Life | Lo
 
 def _parts(state: ChainState, lives: Mapping[str, Life | LowerBound]) -> tuple[PartNow, ...]:
     """Return chain and sprockets as they are on the day of the last row."""
-    today, of_chain = state.log.relubrications.today, state.of("life_hours")
-    low, *_, high = (value for value in state.of("remaining_hours").values if isinstance(value, float))
-    assert isinstance(of_chain.middle, float)
-    chain = PartNow(CHAIN, of_chain.middle, today, True, low, high)
+    today, life, rotation = state.log.machine, state.of("life_hours").middle, state.log.rotation
+    left = state.of("remaining_hours" if rotation is None else "remaining_hours_of_all").values
+    low, _, middle, _, high = (value for value in left if isinstance(value, float))
+    assert isinstance(life, float)
+    whole = life if rotation is None else life * len(rotation.hours)
+    used = today if rotation is None else whole - middle
+    chain = PartNow(CHAIN, whole, used, True, low, high)
     sprockets = [
         PartNow(name, life.hours_run, today - state.log.sprockets.get(name, 0.0), isinstance(life, Life))
         for name, life in lives.items()
@@ -156,6 +159,14 @@ def _prices(given: Case | DriveCase) -> Prices | None:
     if table.chain_price is None or table.sprocket_price is None:
         return None
     return Prices(table.chain_price, {SPROCKET: table.sprocket_price}, table.stop_cost)
+
+
+def _of_all_chains(prices: Prices | None, state: ChainState) -> Prices | None:
+    """Return prices with that of all chains in rotation."""
+    rotation = state.log.rotation
+    if prices is None or rotation is None:
+        return prices
+    return replace(prices, chain=len(rotation.hours) * prices.chain)
 
 
 def _relubrications(state: ChainState, until: float) -> list[Job]:
@@ -188,7 +199,9 @@ def _not_known(parts: tuple[PartNow, ...], until: float) -> Iterator[str]:
 def _conventions(plan: YearPlan) -> Iterator[str]:
     yield TEETH_WORDS[plan.teeth]
     yield "days count from the last row of the log, at the running hours of a day in [service]"
-    new = plan.state.log.sprockets
+    rotation, new = plan.state.log.rotation, plan.state.log.sprockets
+    if rotation is not None:
+        yield f"the {len(rotation.hours)} chains in rotation are replaced together, when all are worn out"
     alike = [one.name for one in plan.parts if one.name != CHAIN and one.name not in new]
     if alike:
         yield f"{', '.join(alike)}: new with this chain, without a row 'new' of their own"

@@ -17,7 +17,7 @@ _MOST_ROWS = 20
 
 def year_text(plan: YearPlan, source: str) -> str:
     """Return the plan as ``wearsim maintain`` prints it with readings."""
-    now = plan.state.log.relubrications.today
+    now = plan.state.log.machine
     table = jobs_table(plan)
     shown = AnswerTable(table.columns, _shown(plan))
     more = len(plan.rows) - len(shown.rows)
@@ -96,7 +96,7 @@ def parts_table(plan: YearPlan) -> AnswerTable[PartNow]:
 
 
 def _day(plan: YearPlan, job: Job) -> str | None:
-    day = plan.state.day(plan.state.log.relubrications.today + job.hours)
+    day = plan.state.day(plan.state.log.machine + job.hours)
     if job.job != KEEP:
         return day or None
     return f"until {'> ' if job.at_least else ''}{day or 'beyond the calendar'}"
@@ -105,7 +105,7 @@ def _day(plan: YearPlan, job: Job) -> str | None:
 def _end(plan: YearPlan, hours: float) -> str | None:
     if math.isnan(hours):
         return None
-    return plan.state.day(plan.state.log.relubrications.today + hours) or None
+    return plan.state.day(plan.state.log.machine + hours) or None
 
 
 def _interval(plan: YearPlan, job: Job) -> str | None:
@@ -120,7 +120,7 @@ def year_json(plan: YearPlan) -> dict[str, Any]:
         **ANSWER_HEAD,
         "case": case.name,
         "title": case.title,
-        "from": plan.state.day(plan.state.log.relubrications.today),
+        "from": plan.state.day(plan.state.log.machine),
         "elongation_percent": plan.state.of("elongation_percent").middle,
         "parts": parts_table(plan).records(),
         "jobs": jobs_table(plan).records(),

@@ -11,6 +11,7 @@ from wearsim.study.remaining.chain_sheet import (
     chain_files,
     chain_json,
     chain_text,
+    chains_table,
     intervals_table,
     readings_table,
 )
@@ -30,7 +31,7 @@ class ChainReadingsResult(DrawnAnswer):
         Readings, distribution of the coefficient and quantiles as objects.
     """
 
-    _tables = ("intervals", "readings")
+    _tables = ("intervals", "readings", "chains")
 
     found: ChainState
 
@@ -59,6 +60,11 @@ class ChainReadingsResult(DrawnAnswer):
     def readings(self) -> "pd.DataFrame":
         """Every reading as an elongation [%] beside its prediction."""
         return readings_table(self.found).frame()
+
+    @property
+    def chains(self) -> "pd.DataFrame":
+        """Every chain in rotation: its running time, elongation and hours left; empty of a single chain."""
+        return chains_table(self.found).frame()
 
     def _content(self) -> dict[str, Any]:
         return chain_json(self.found)

@@ -17,6 +17,7 @@ _DIGITS = {"elongation_percent": 3, "coefficient_factor": 3}
 
 _WORDS = {
     "remaining_km": ("In service", "{} km"),
+    "remaining_hours_of_all": ("All chains", "{} h left together"),
     "end_date": ("Until", "{}"),
     "elongation_percent": ("Now", "{} % longer"),
     "life_hours": ("Life", "{} h in all"),
@@ -27,15 +28,16 @@ _WORDS = {
 def chain_text(found: ChainState) -> str:
     """Return the answer as ``wearsim remaining`` prints it with a table of readings."""
     left = found.of("remaining_hours")
-    today = grouped(found.log.relubrications.today)
+    of_which, today = _chain(found), grouped(found.log.today)
     rows = [
-        Finding("Remaining", f"{_shown(left)[2]} h of the chain after {today} h{_intervals(left)}"),
+        Finding("Remaining", f"{_shown(left)[2]} h of {of_which} after {today} h{_intervals(left)}"),
         *(
             Finding(label, form.format(_shown(one)[2]) + _intervals(one))
             for one in found.quantiles
             if one.name in _WORDS
             for label, form in [_WORDS[one.name]]
         ),
+        *_chains(found),
         Finding("Readings", counted_readings(found)),
         *starmap(Finding, relubrication_rows(found.log.relubrications)),
         *closing(found.assumptions, found.warnings),
@@ -61,13 +63,14 @@ def chain_json(found: ChainState) -> dict[str, Any]:
         "case": found.case.name,
         "title": found.case.title,
         "part": "chain",
-        "reading_hours": found.log.relubrications.today,
+        "reading_hours": found.log.today,
         "life_hours": life.middle,
         "remaining_hours": left.middle,
         "remaining_hours_low": left.values[0],
         "remaining_hours_high": left.values[-1],
         "intervals": intervals_table(found).records(),
         "readings": readings_table(found).records(),
+        "chains": chains_table(found).records(),
         "relubrications": len(found.log.relubrications.hours),
         "error_scale": found.posterior.scale,
         "assumptions": list(found.assumptions),
@@ -84,6 +87,37 @@ def intervals_table(found: ChainState) -> AnswerTable[Quantiles]:
             *(Column(name, partial(_level, at)) for at, name in enumerate(names)),
         ],
         found.quantiles,
+    )
+
+
+def _chain(found: ChainState) -> str:
+    rotation = found.log.rotation
+    return "the chain" if rotation is None else f"chain {rotation.mounted}, which is on the drive,"
+
+
+def _chains(found: ChainState) -> list[Finding]:
+    """Return where each chain in rotation stands."""
+    rows = []
+    for name, run in () if found.log.rotation is None else found.log.rotation.hours.items():
+        grown, left = found.of_chain(name)
+        text = (
+            f"{_shown(grown)[2]} % longer after {grouped(run)} h, {_shown(left)[2]} h left{_intervals(left)}"
+        )
+        rows.append(Finding(f"Chain {name}", text))
+    return rows
+
+
+def chains_table(found: ChainState) -> AnswerTable[str]:
+    """Return a row for each chain in rotation; none of a single chain."""
+    rotation = found.log.rotation
+    return AnswerTable(
+        [
+            Column("chain", lambda name: name),
+            Column("used_hours", lambda name: rotation.hours[name] if rotation else None),
+            Column("elongation_percent", lambda name: found.of_chain(name)[0].middle),
+            Column("remaining_hours", lambda name: found.of_chain(name)[1].middle),
+        ],
+        [] if rotation is None else list(rotation.hours),
     )
 
 
@@ -115,6 +149,7 @@ def chain_files(found: ChainState) -> dict[str, str]:
     return {
         "intervals.csv": intervals_table(found).csv(),
         "readings.csv": readings_table(found).csv(),
+        **({"chains.csv": chains_table(found).csv()} if found.log.rotation else {}),
         "summary.md": fenced(chain_text(found)),
     }
 

@@ -25,7 +25,7 @@ def chain_figure(found: ChainState) -> Figure:
     panel.fill_between(hours, lower, upper, color="C0", alpha=0.3, linewidth=0, label="50 %")
     panel.plot(hours, middle, color="C0", label="median")
     panel.axhline(found.limit, color="C3", linewidth=1.0, label=f"limit, {found.limit:g} %")
-    panel.axvline(found.log.relubrications.today, color="0.5", linewidth=0.8, linestyle=":", label="last row")
+    panel.axvline(found.log.today, color="0.5", linewidth=0.8, linestyle=":", label="last row")
     _measured([one for one in found.log.readings if one.measured], panel)
     _gauges([one for one in found.log.readings if not one.measured], panel)
     times = found.log.relubrications.hours

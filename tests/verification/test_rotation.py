@@ -1,0 +1,99 @@
+"""Chains in rotation: hours of each by hand, one rate for all."""
+
+import pytest
+
+import wearsim
+from tests.drives import FAST_WRAP, changed
+from wearsim.readings.chain_state import chain_state
+from wearsim.readings.rotation import MOUNTED
+
+CASE = changed(FAST_WRAP, {"stop.elongation_percent": 3, "service": {"km_per_hour": 30, "hours_per_day": 8}})
+HEAD = "time_hours,quantity,value,links,result,error,chain\n"
+LOG = [
+    "1000,new,,,,,A",
+    "1300,new,,,,,B",
+    "1400,mounted,,,,,A",
+    "1600,elongation_percent,0.6,,,1e-6,A",
+    "1600,mounted,,,,,B",
+    "1650,gauge_percent,0.75,,go,,B",
+]
+"""A runs 300 and 200 h and is 0.6 % longer; B runs 100 and 50 h, 0.18 %."""
+
+
+@pytest.fixture
+def state(tmp_path):
+    """Function that tells what a log says."""
+
+    def read(*rows, case=CASE):
+        path = tmp_path / "log.csv"
+        path.write_text(HEAD + "\n".join(rows) + "\n", encoding="utf-8")
+        return chain_state(wearsim.load_case(case), path)
+
+    return read
+
+
+def test_each_chain_has_its_own_hours_and_all_one_rate(state):
+    """0.6 % in 500 h are 3 % in 2500 h: 2000 and 2350 h left, 4350 together."""
+    found = state(*LOG)
+    assert found.log.rotation.hours == {"A": 500.0, "B": 150.0}
+    assert (found.log.rotation.mounted, found.log.today, found.log.machine) == ("B", 150.0, 650.0)
+    grown, left = found.of_chain("A")
+    assert (grown.middle, left.middle) == (pytest.approx(0.6, rel=1e-4), pytest.approx(2000.0, rel=1e-4))
+    assert found.of_chain("B")[0].middle == pytest.approx(0.18, rel=1e-2)
+    assert found.of("remaining_hours").middle == pytest.approx(2350.0, rel=1e-4)
+    assert found.of("remaining_hours_of_all").middle == pytest.approx(4350.0, rel=1e-4)
+
+
+def test_the_last_day_is_that_of_all_chains(state):
+    """650 h have run and 4350 are left, at 8 h a day: 625 days."""
+    dated = changed(CASE, {"service.start_date": "2026-01-01"})
+    assert state(*LOG, case=dated).of("end_date").values[2] in ("2027-09-17", "2027-09-18")
+
+
+def test_a_worn_chain_waits_for_the_others(state):
+    found = state(*[row.replace("0.6", "3.6") for row in LOG])
+    assert found.of_chain("A")[1].middle == 0.0
+    assert found.of_chain("B")[1].middle > 0.0
+
+
+def test_a_chain_that_shrinks_is_named_but_not_one_beside_another(state):
+    """B with 0.1 % after A with 0.6 % is another chain; A with 0.1 % is not."""
+    longer = ["1700,elongation_percent,0.24,,,0.05,B", "1800,mounted,,,,,A"]
+    assert not [text for text in state(*LOG, *longer).warnings if "shorter" in text]
+    shrunk = state(*LOG, *longer, "1900,elongation_percent,0.1,,,0.01,A")
+    (text,) = (text for text in shrunk.warnings if "chains do not become shorter" in text)
+    assert "0.1 % of chain A contradicts 0.6 % of chain A in line 5" in text
+
+
+@pytest.mark.parametrize(
+    ("rows", "message"),
+    [
+        (["1650,elongation_percent,0.6,,,,"], ":8: chain: must name the chain of every row"),
+        (["1650,mounted,,,,,C"], ":8: chain: 'C' must have a row 'new' first"),
+        (["1650,new,,,,,A"], ":8: chain: 'A' was new before"),
+        (["1650,relubrication,,,,,A"], "must be left out of a log of chains in rotation"),
+        (["1650,mounted,5,,,,A"], f"must be empty for {MOUNTED} (got '5')"),
+        (["1640,mounted,,,,,A"], "must not go backwards"),
+    ],
+)
+def test_what_cannot_be_is_named(state, rows, message):
+    with pytest.raises(wearsim.CaseError) as caught:
+        state(*LOG, *rows)
+    assert message in str(caught.value)
+
+
+def test_one_chain_alone_is_not_mounted_again(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text("time_hours,quantity,value\n0,new,\n500,mounted,\n600,elongation_percent,0.6\n")
+    with pytest.raises(wearsim.CaseError, match=r":3: quantity: must be one of new, chain_length_mm"):
+        chain_state(wearsim.load_case(CASE), path)
+
+
+def test_the_answer_lists_the_chains():
+    rows = [dict(zip(HEAD.strip().split(","), row.split(","), strict=True)) for row in LOG]
+    found = wearsim.remaining(CASE, readings=rows)
+    assert found.chains["used_hours"].tolist() == [500.0, 150.0]
+    assert found.summary()["chains"][0]["chain"] == "A"
+    text = " ".join(found.text.split())
+    assert "of chain B, which is on the drive, after 150 h" in text
+    assert "Chain A 0.6 % longer after 500 h, 2 000 h left" in text
