@@ -121,6 +121,7 @@ def calibrate(
     register: Freedom = "turn",
     cutoff: float = 0.8,
     confidence: float = 0.9,
+    sprocket: str = "",
     teeth: Teeth = "case",
 ) -> CalibrationResult:
     """Fit the wear coefficients of a case to readings, and tell the hours left.
@@ -128,7 +129,7 @@ def calibrate(
     Parameters
     ----------
     case : Case, DriveCase, path or mapping
-        One sprocket or a gear pair, or a whole drive whose chain was read.
+        One sprocket or a gear pair, or a whole drive whose chain or one of whose sprockets was read.
     readings : path, pandas.DataFrame or sequence of mapping
         Columns ``quantity``, ``value``, ``error``, one of ``time_hours``, ``distance_km`` and ``date``,
         and those that a quantity needs; rows ``relubrication`` have a time only. Paths are relative to
@@ -141,6 +142,8 @@ def calibrate(
         Cut-off wavelength of the filter of profiles [mm].
     confidence : float
         Of the intervals.
+    sprocket : str
+        On which teeth were read, of a whole drive.
     teeth : str
         What the teeth of the fitted case wear by where only the chain was read: ``case``, what the case
         says, or ``chain``, as much faster or slower than that as the joints do.
@@ -160,6 +163,6 @@ def calibrate(
     check_installed(("pandera",), "study", "calibrate")
     given_options = {"register": register, "cutoff": cutoff, "confidence": confidence, "teeth": teeth}
     check_ranges("calibrate", given_options, _ALLOWED)
-    options = CalibrationOptions(tuple(fit), register, cutoff, confidence, teeth)
+    options = CalibrationOptions(tuple(fit), register, cutoff, confidence, sprocket, teeth)
     with readings_file(readings) as file:
         return CalibrationResult(fitted(given_input(case), file, (), options))

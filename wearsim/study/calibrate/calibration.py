@@ -21,6 +21,7 @@ class CalibrationOptions:
     freedom: Freedom = "turn"  # how profiles may be moved: `none`, `turn` or `free`
     cutoff: float = 0.8  # cut-off wavelength of their filter [mm]
     confidence: float = 0.9  # of the intervals
+    sprocket: str = ""  # of a whole drive, on which teeth were read
     teeth: Teeth = "case"  # what the teeth of the fitted case wear by where only the chain was read
 
 

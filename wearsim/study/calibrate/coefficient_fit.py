@@ -76,7 +76,9 @@ class CaseFit:
         chain = any(reading.of_chain for reading in readings)
         joint, rate, self.chain_hours = _joints(case)
         self.parameters = FitParameters(
-            predictions=PredictedHistories(replaced(tables, ("run", "horizon_hours"), _FOREVER)),
+            predictions=PredictedHistories(
+                replaced(tables, ("run", "horizon_hours"), _FOREVER), options.sprocket
+            ),
             coefficient=case.wear.coefficient,
             joint=joint,
             elongation_rate=rate,

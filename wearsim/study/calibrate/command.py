@@ -7,7 +7,7 @@ import click
 
 from wearsim.command.answered import Shown, shown_options
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, finite, overrides, working
+from wearsim.command.options import common_options, finite, overrides, sprocket_option, working
 
 if TYPE_CHECKING:
     from wearsim.geometry.measured.registration import Freedom
@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     help="Of readings of the chain alone: teeth wear as the case says, or by the factor of the chain.",
 )
 @shown_options("tables and pictures")
+@sprocket_option
 @overrides
 @common_options
 def calibrate(
@@ -68,6 +69,7 @@ def calibrate(
     cutoff_mm: float,
     confidence: float,
     teeth: "Teeth",
+    sprocket: str | None,
     shown: Shown,
     settings: tuple[str, ...],
 ) -> None:
@@ -77,7 +79,8 @@ def calibrate(
     depth_mm at arc_length_mm, over_pins_mm, elongation_percent, chain_length_mm over links,
     gauge_percent with result, or profile with a points_file), value, and error, its standard
     deviation. Rows with the quantity relubrication give the times of relubrication, and replace the
-    schedule of [lubrication]. For a whole drive, readings are of the chain. --out writes fit.csv,
+    schedule of [lubrication]. For a whole drive, readings are of the chain, and of the teeth of the
+    sprocket that --sprocket names. --out writes fit.csv,
     fitted_values.csv, summary.md, pictures, and the case with the fitted values. Needs pandera
     (pip install 'wearsim[study]').
     """
@@ -89,7 +92,7 @@ def calibrate(
     from wearsim.study.calibrate.calibration import CalibrationOptions
     from wearsim.study.calibrate.model import calibrate as calibrated
 
-    options = CalibrationOptions(shapes, register, cutoff_mm, confidence, teeth)
+    options = CalibrationOptions(shapes, register, cutoff_mm, confidence, sprocket or "", teeth)
     with working(f"fitting {case.stem}"):
         found = calibrated(case, measurements, settings, options)
     shown.save(CalibrationResult(found), case)

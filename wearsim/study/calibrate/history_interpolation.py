@@ -5,7 +5,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
-from wearsim.drive.load_case import load_single
+from wearsim.drive.drive_case import DriveCase
+from wearsim.drive.load_case import load_case
 from wearsim.drive.part_life import simulate
 from wearsim.errors import ConvergenceError
 from wearsim.geometry.profile_points import Vector
@@ -62,12 +63,12 @@ class LogInterpolation:
 class PredictedHistories:
     """Courses by the values of keys, run where they are needed.
 
-    They are run for the values of the case times powers of exp(0.05); in between they are
-    interpolated, which for the depth of a point is good to 1e-4 of it.
+    Of a whole drive they are those of one sprocket. They are run for the values of the case times powers of
+    exp(0.05); in between they are interpolated, which for the depth of a point is good to 1e-4 of it.
     """
 
-    def __init__(self, tables: Mapping[str, Any]) -> None:
-        self._tables = tables
+    def __init__(self, tables: Mapping[str, Any], sprocket: str = "") -> None:
+        self._tables, self._sprocket = tables, sprocket
         self._found: dict[tuple[tuple[str, float], ...], PredictedHistory] = {}
 
     @property
@@ -98,7 +99,9 @@ class PredictedHistories:
             for name, value in key:
                 tables = replaced(tables, name.split("."), value)
             # How the lubricant ages is a matter of time alone, which readings are held against.
-            case = replace(load_single(tables), lubrication=None)
+            found = load_case(tables)
+            single = found.single_cases[self._sprocket] if isinstance(found, DriveCase) else found
+            case = replace(single, lubrication=None)
             predicted = PredictedHistory(simulate(case))
             if not predicted.reached:
                 raise ConvergenceError(

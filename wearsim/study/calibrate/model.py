@@ -3,8 +3,10 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase, with_one_wear
 from wearsim.drive.load_case import load_case
+from wearsim.errors import CaseError, Fault
 from wearsim.input.document import CaseSource, read_document
 from wearsim.runner.scaled_percentiles import check_no_running_in
 from wearsim.runner.scatter import plain_document, with_whole_paths
@@ -26,20 +28,33 @@ def calibrate(
     The coefficient of the teeth is fitted where there are readings of the teeth, that of the
     joints where there are elongations, and what the options name besides: bounded least squares
     of the residuals over their stated errors, intervals by the profile of the likelihood. Of a whole
-    drive its chain can be read.
+    drive its chain can be read, and the teeth of the sprocket that the options name.
     """
     options = options or CalibrationOptions()
     document = read_document(source, overrides)
     given = load_case(source, overrides)
-    if options.teeth == "chain":
+    if options.teeth == "chain" or options.sprocket:
         with_one_wear(given)
-    case = given.chain_case
+    case = _read_case(given, options.sprocket)
     check_no_running_in(case, "calibrate")
     readings, log = read_readings(measurements, case)
-    if isinstance(given, DriveCase):
+    if isinstance(given, DriveCase) and not options.sprocket:
         check_of_chain(readings, str(measurements))
         tables = with_whole_paths(document).data
     else:
         tables = plain_document(document, case).data
     check_readings(case, readings, options, str(measurements))
     return CaseFit(case, tables, readings, options, LubricatedTime.of(given, log)).calibration()
+
+
+def _read_case(given: Case | DriveCase, sprocket: str) -> Case:
+    """Return the case of what was read: of the sprocket that is named, else of the chain."""
+    if not sprocket:
+        return given.chain_case
+    cases = given.titled_cases() if isinstance(given, DriveCase) else {}
+    if sprocket not in cases:
+        names = ", ".join(cases) or "none, as this case is no whole drive"
+        raise CaseError(
+            [Fault(f"must name a sprocket of the drive, {names} (got {sprocket!r})", "--sprocket")]
+        )
+    return cases[sprocket]

@@ -10,7 +10,7 @@ from wearsim.readings.contradictions import ambiguous_reading
 from wearsim.study.calibrate.calibration import CalibrationOptions
 from wearsim.study.calibrate.parameters import BEYOND, EXPONENT, SHAPES, shape_values
 from wearsim.study.calibrate.predicted_history import PredictedHistory
-from wearsim.study.calibrate.readings import DEEPEST, OVER_PINS, POINT, PROFILE, Reading
+from wearsim.study.calibrate.readings import DEEPEST, OVER_PINS, POINT, PROFILE, SIZE, Reading
 
 _NONE, _FAR = 3.0, 5.0
 """Errors by which a value may lie below 0, and beyond the depth at the limit."""
@@ -40,8 +40,7 @@ def check_of_chain(readings: Sequence[Reading], file: str) -> None:
     """Raise where readings of a whole drive are of its teeth, as they say not of which sprocket."""
     faults = [
         Fault(
-            f"{one.quantity} is read on the teeth of one sprocket: give the case of that one, [sprocket] "
-            "with drive.mate_teeth for the other one; of a whole drive give what was read of its chain",
+            f"{one.quantity} is read on the teeth of one sprocket: name it by --sprocket, a file for each",
             "quantity",
             file,
             one.row,
@@ -55,7 +54,7 @@ def check_of_chain(readings: Sequence[Reading], file: str) -> None:
 
 def _not_known(case: Case, reading: Reading) -> Iterator[str]:
     wrap, name = case.drive.rests, reading.quantity
-    if (reading.of_chain or name in (LENGTH, OVER_PINS)) and not wrap:
+    if (reading.of_chain or name in (LENGTH, OVER_PINS, SIZE)) and not wrap:
         yield f"{name} needs a chain that wraps the sprocket: {instead_of(case)}"
     if (reading.of_chain or name == OVER_PINS) and reading.gap_kind is not None:
         yield f"gap_kind must be empty for {name}"

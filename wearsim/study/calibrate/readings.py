@@ -26,7 +26,10 @@ if TYPE_CHECKING:
 
 DEEPEST, POINT, OVER_PINS = "max_depth_mm", "depth_mm", "over_pins_mm"
 PROFILE = "profile"
-QUANTITIES = (DEEPEST, POINT, OVER_PINS, ELONGATION, PROFILE, LENGTH, GAUGE)
+SIZE = "size_over_pins_mm"
+"""The measurement over pins itself, of which its decrease from that of the new sprocket is read."""
+
+QUANTITIES = (DEEPEST, POINT, OVER_PINS, SIZE, ELONGATION, PROFILE, LENGTH, GAUGE)
 
 REQUIRED = ("quantity", "error")
 OPTIONAL = ("value", "arc_length_mm", "gap_kind", "points_file", "links", "result")
@@ -75,13 +78,15 @@ def read_readings(path: Path, case: Case) -> tuple[tuple[Reading, ...], Relubric
     if not found:
         raise CaseError([Fault("must hold at least one reading below its header", "", str(path))])
     readings = tuple(
-        _elongation(one, cells, whole, case) for one, (_, cells) in zip(found, rows.rows, strict=True)
+        _counted(one, cells, whole, case) for one, (_, cells) in zip(found, rows.rows, strict=True)
     )
     return readings, relubrication_log(whole, time)
 
 
-def _elongation(reading: Reading, cells: Mapping[str, str], table: DatedRows, case: Case) -> Reading:
-    """Return a length of a chain as its elongation, odd links with their error; others as they are."""
+def _counted(reading: Reading, cells: Mapping[str, str], table: DatedRows, case: Case) -> Reading:
+    """Return a length of a chain as its elongation, with the error of odd links, a size as its decrease."""
+    if reading.quantity == SIZE and case.drive.wear_coefficients:
+        return replace(reading, quantity=OVER_PINS, value=wrap_of(case).over_pins - reading.value)
     if reading.quantity not in (LENGTH, ELONGATION) or not case.drive.wear_coefficients:
         return reading
     links = int(number(cells["links"])) if cells.get("links") else 0

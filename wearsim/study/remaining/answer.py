@@ -22,6 +22,7 @@ from wearsim.study.remaining.model import (
     OVER_PINS,
     RemainingLife,
     SingleReading,
+    from_size,
     read_part,
     remaining_life,
 )
@@ -106,6 +107,8 @@ def remaining(
     *,
     depth: float | None = None,
     over_pins: float | None = None,
+    size_over_pins: float | None = None,
+    new_over_pins: float | None = None,
     elongation_percent: float | None = None,
     error: float | None = None,
     sprocket: str | None = None,
@@ -128,6 +131,8 @@ def remaining(
     *,
     depth: float | None = None,
     over_pins: float | None = None,
+    size_over_pins: float | None = None,
+    new_over_pins: float | None = None,
     elongation_percent: float | None = None,
     readings: "str | PathLike[str] | pd.DataFrame | Sequence[Mapping[str, Any]] | None" = None,
     error: float | None = None,
@@ -137,8 +142,8 @@ def remaining(
     """Return the hours that are left after readings in service.
 
     One reading takes the place of the wear coefficient of the case: life times coefficient is constant.
-    Give hours and one of depth, over_pins and elongation_percent. Or give readings, all of one chain,
-    for intervals of 50 and 90 %. `calibrate` takes several readings of the teeth too.
+    Give hours and one of depth, over_pins, size_over_pins and elongation_percent. Or give readings, all
+    of one chain, for intervals of 50 and 90 %. `calibrate` takes several readings of the teeth too.
 
     Parameters
     ----------
@@ -150,6 +155,10 @@ def remaining(
         Worn off a tooth at its deepest point [mm].
     over_pins : float, optional
         How much less the measurement over pins is than when new [mm].
+    size_over_pins : float, optional
+        The measurement over pins of the roller's diameter itself [mm].
+    new_over_pins : float, optional
+        The same when the sprocket was new [mm]; without it that of the case.
     elongation_percent : float, optional
         Of the chain [%].
     readings : path, pandas.DataFrame or sequence of mapping, optional
@@ -211,6 +220,8 @@ def remaining(
             "hours": hours,
             "depth": depth,
             "over_pins": over_pins,
+            "size_over_pins": size_over_pins,
+            "new_over_pins": new_over_pins,
             "elongation_percent": elongation_percent,
             "sprocket": sprocket,
         }
@@ -222,15 +233,26 @@ def remaining(
         return ChainReadingsResult(state)
     if hours is None:
         raise TypeError("remaining: must be given hours and one reading, or readings")
-    given = {"depth": depth, "over_pins": over_pins, "elongation_percent": elongation_percent}
+    given = {
+        "depth": depth,
+        "over_pins": over_pins,
+        "size_over_pins": size_over_pins,
+        "elongation_percent": elongation_percent,
+    }
     values = [(name, value) for name, value in given.items() if value is not None]
     if len(values) != 1:
-        raise TypeError("remaining: must be given one of depth, over_pins and elongation_percent")
-    check_ranges("remaining", {"hours": hours, **given, "error": error}, _ALLOWED)
+        raise TypeError(
+            "remaining: must be given one of depth, over_pins, size_over_pins and elongation_percent"
+        )
+    check_ranges(
+        "remaining", {"hours": hours, **given, "new_over_pins": new_over_pins, "error": error}, _ALLOWED
+    )
     ((name, value),) = values
     quantity, usual_error = _READINGS[name]
     reading = SingleReading(quantity, value, usual_error if error is None else error, hours)
     part = read_part(loaded(case), reading, sprocket)
+    if name == "size_over_pins":
+        reading = from_size(part, reading, new_over_pins)
     return RemainingResult(part, remaining_life(part, reading, progress))
 
 
@@ -240,6 +262,8 @@ _ALLOWED: dict[str, Allowed] = {
     "hours": Range(above=0.0),
     "depth": _ABOVE_0,
     "over_pins": _ABOVE_0,
+    "size_over_pins": _ABOVE_0,
+    "new_over_pins": _ABOVE_0,
     "elongation_percent": _ABOVE_0,
     "error": _ABOVE_0,
 }
@@ -250,6 +274,7 @@ _USUAL = 0.05
 _READINGS = {
     "depth": (DEPTH, 0.02),
     "over_pins": (OVER_PINS, 0.02),
+    "size_over_pins": (OVER_PINS, 0.02),
     "elongation_percent": (ELONGATION, _USUAL),
 }
 """What each argument reads, and its usual error."""

@@ -45,6 +45,20 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
     help="Decrease of the measurement over pins since new, in mm.",
 )
 @click.option(
+    "--size-over-pins-mm",
+    type=_POSITIVE,
+    metavar="MM",
+    callback=finite,
+    help="Measurement over pins of the roller's diameter itself, in mm.",
+)
+@click.option(
+    "--new-over-pins-mm",
+    type=_POSITIVE,
+    metavar="MM",
+    callback=finite,
+    help="The same of the new sprocket; without it that of the case.",
+)
+@click.option(
     "--elongation",
     type=_POSITIVE,
     metavar="PERCENT",
@@ -80,6 +94,8 @@ def remaining(
     hours: float | None,
     depth_mm: float | None,
     over_pins_mm: float | None,
+    size_over_pins_mm: float | None,
+    new_over_pins_mm: float | None,
     elongation: float | None,
     reading_error_mm: float,
     reading_error_percent: float,
@@ -89,15 +105,15 @@ def remaining(
 ) -> None:
     """Print the remaining hours of CASE; readings replace its wear coefficient.
 
-    With one reading: --hours and one of --depth-mm, --over-pins-mm and --elongation; for the teeth of
-    a whole drive also --sprocket. Life times coefficient is constant, so the answer is exact as long
-    as the coefficient stays the same.
+    With one reading: --hours and one of --depth-mm, --over-pins-mm, --size-over-pins-mm and --elongation;
+    for the teeth of a whole drive also --sprocket. Life times coefficient is constant, so the answer is
+    exact as long as the coefficient stays the same.
 
     With READINGS (.csv), the log of one chain by hours, km or date: chain_length_mm over links,
     elongation_percent, gauge_percent with go or no-go, and relubrications. The answer has intervals of
     50 and 90 %.
     """
-    values = (depth_mm, over_pins_mm, elongation)
+    values = (depth_mm, over_pins_mm, size_over_pins_mm, elongation)
     given = [value for value in values if value is not None]
     if readings is not None:
         if given or hours is not None or sprocket is not None:
@@ -113,7 +129,9 @@ def remaining(
     if hours is None:
         raise click.UsageError("give READINGS, or --hours and one reading")
     if len(given) != 1:
-        raise click.UsageError("give exactly one of --depth-mm, --over-pins-mm, --elongation")
+        raise click.UsageError(
+            "give exactly one of --depth-mm, --over-pins-mm, --size-over-pins-mm, --elongation"
+        )
     if shown.out is not None:
         raise click.UsageError("--out needs READINGS: one reading has neither table nor picture")
     (loaded,) = load_cases([case], settings, shown.as_json)
@@ -126,6 +144,8 @@ def remaining(
             hours,
             depth=depth_mm,
             over_pins=over_pins_mm,
+            size_over_pins=size_over_pins_mm,
+            new_over_pins=new_over_pins_mm,
             elongation_percent=elongation,
             error=error,
             sprocket=sprocket,

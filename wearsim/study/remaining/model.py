@@ -1,7 +1,7 @@
 """What is left of a life after one reading in service."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -90,6 +90,17 @@ def read_part(case: Case | DriveCase, reading: SingleReading, sprocket: str | No
         names = ", ".join(map(repr, cases))
         raise _fault(reading, f"is read on the teeth of one sprocket: name it, one of {names}{got}")
     return cases[sprocket]
+
+
+def from_size(case: Case, reading: SingleReading, new: float | None) -> SingleReading:
+    """Return what a measurement over pins says: how much less it is than that of the new sprocket."""
+    if not case.drive.wear_coefficients:
+        raise _fault(reading, f"needs a chain that wraps the sprocket: {instead_of(case)}")
+    whole = wrap_of(case).over_pins if new is None else new
+    if not reading.value < whole:
+        of = "by the case" if new is None else "as given"
+        raise _fault(reading, f"must be less than that of the new sprocket, {whole:.4f} mm {of}")
+    return replace(reading, value=whole - reading.value)
 
 
 def remaining_life(
