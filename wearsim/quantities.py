@@ -24,9 +24,19 @@ class Quantity:
 
 @cache
 def quantities() -> dict[str, Quantity]:
-    """Return all quantities by name."""
+    """Return all quantities by name; of a name that is a key and a column, the column."""
+    return {row.name: row for row in _rows()}
+
+
+@cache
+def input_quantities() -> dict[str, Quantity]:
+    """Return the quantities by name; of a name that is a key and a column, the key, whose row stands first."""
+    return {row.name: row for row in reversed(_rows())}
+
+
+def _rows() -> list[Quantity]:
     with Path(__file__).with_suffix(".csv").open(encoding="utf-8", newline="") as file:
-        return {row["name"]: Quantity(**row) for row in csv.DictReader(file)}
+        return [Quantity(**row) for row in csv.DictReader(file)]
 
 
 _PERCENTILE = re.compile(r"p(\d+)_hours")

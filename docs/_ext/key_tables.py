@@ -8,7 +8,7 @@ from sphinx.application import Sphinx
 
 from wearsim.case.keys import CaseTables
 from wearsim.command.registry import tables_of
-from wearsim.quantities import quantities
+from wearsim.quantities import input_quantities
 
 _HEAD = ("key", "meaning", "unit", "default", "allowed")
 _BOUNDS = {"exclusiveMinimum": "> {}", "minimum": "from {}", "exclusiveMaximum": "< {}", "maximum": "to {}"}
@@ -36,7 +36,7 @@ def _rows(schema: dict[str, Any], place: str, table: dict[str, Any]) -> list[tup
         if inner is not None:
             rows += _rows(schema, f"{place}{name}.", inner)
             continue
-        known = quantities().get(name)
+        known = input_quantities().get(name)
         required = "required" if name in table.get("required", ()) else ""
         default = str(entry.get("default", required))
         meaning = entry.get("description", "")

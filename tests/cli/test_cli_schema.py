@@ -67,3 +67,34 @@ def test_unknown_command_is_named(cli):
 
 def test_one_schema_at_a_time(cli):
     assert cli("schema", "--result", "--of", "wave-drive").code == 2
+
+
+def described(cli, *of):
+    """Descriptions of all keys of a schema by table and key."""
+    content = json.loads(cli("schema", *of).out)
+    return {
+        (name, key): entry.get("description", "")
+        for name, table in {"": content, **content["$defs"]}.items()
+        for key, entry in table.get("properties", {}).items()
+    }
+
+
+@pytest.mark.parametrize(
+    ("of", "table", "key", "says"),
+    [
+        (["--of", "strength"], "StrengthDriveTable", "life_hours", "required"),
+        (["--of", "wave-drive"], "WaveDriveTable", "life_hours", "required"),
+        (["--of", "hertz-check"], "ContactTable", "torque_N_m", "pinion"),
+        ([], "SprocketTable", "seat_radius_mm", "radius of the roller's seat"),
+        ([], "SprocketTable", "flank_radius_mm", "above the seat"),
+        ([], "LubricationTable", "environment", "surroundings of the drive"),
+    ],
+)
+def test_key_that_is_a_column_too_is_described_as_a_key(cli, of, table, key, says):
+    assert says in described(cli, *of)[table, key]
+
+
+def test_no_input_is_described_as_an_output(schema, cli):
+    """A key is given: words for a value that may be missing are those of a column, as are a table's."""
+    found = described(cli, "--of", schema[0])
+    assert [key for key, text in found.items() if "empty where" in text or "that is drawn" in text] == []

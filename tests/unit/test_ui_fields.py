@@ -9,7 +9,7 @@ from wearsim.input.keys import schema_fields
 from wearsim.mechanisms.gear_pair.keys import GearTables
 from wearsim.page.field_words import choice_words, label
 from wearsim.page.fields import form_fields, owner, table_meaning, table_title
-from wearsim.quantities import quantities
+from wearsim.quantities import input_quantities
 
 LUBRICATION = {"lubrication": {"phase": [{}], "option": [{}]}}
 DRIVE = {
@@ -30,8 +30,8 @@ def test_every_key_has_one_field_with_unit_and_meaning(data, model):
     keys = [key.replace("[]", ".1") for key, _ in schema_fields(model)]
     assert sorted(field.key for field in fields) == sorted(keys)
     for field in fields:
-        assert field.unit == quantities()[field.name].unit
-        assert field.meaning == quantities()[field.name].meaning != ""
+        assert field.unit == input_quantities()[field.name].unit
+        assert field.meaning == input_quantities()[field.name].meaning != ""
 
 
 @pytest.mark.parametrize("data", [{}, {"gear": {}}, {"duty": [{}, {}]}, DRIVE])

@@ -9,16 +9,22 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Fiel
 from pydantic_core import PydanticCustomError
 
 from wearsim.catalogue.catalogues import nearest
-from wearsim.quantities import quantities
+from wearsim.quantities import input_quantities
 
 
 def describe(schema: dict[str, Any]) -> None:
-    """Add to the schema of a table what its keys mean."""
+    """Add to the schema of a table what its keys mean; a key that is a table is described by that table."""
     for name, entry in schema.get("properties", {}).items():
         entry.pop("title", None)
         _without_null(entry)
-        if name in quantities():
-            entry["description"] = quantities()[name].meaning
+        if name in input_quantities() and not _is_table(entry):
+            entry["description"] = input_quantities()[name].meaning
+
+
+def _is_table(entry: dict[str, Any]) -> bool:
+    """Whether a key holds a table, or tables alone."""
+    choices = entry.get("anyOf", entry.get("allOf", (entry.get("items", entry),)))
+    return all("$ref" in choice for choice in choices)
 
 
 def _without_null(entry: dict[str, Any]) -> None:

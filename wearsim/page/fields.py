@@ -9,7 +9,7 @@ from pydantic.fields import FieldInfo
 from wearsim.case.keys import Table
 from wearsim.catalogue.catalogues import catalogue_rows, chains, environments, lubricants, wear_conditions
 from wearsim.input.keys import is_dict, parts, schema_fields, schema_of, tables_in, words
-from wearsim.quantities import quantities
+from wearsim.quantities import input_quantities
 
 
 @dataclass(frozen=True)
@@ -147,7 +147,7 @@ def _named_parts(name: str) -> list[str]:
 
 def _field(key: str, info: FieldInfo) -> Field:
     name = key.rpartition(".")[2]
-    quantity = quantities()[name]
+    quantity = input_quantities()[name]
     kinds = list(parts(info.annotation))
     one_word = () if any(get_origin(kind) is list for kind in kinds) else words(info)
     default = None if info.is_required() else info.get_default(call_default_factory=True)
