@@ -18,8 +18,8 @@ extensions = [
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
-    "sphinx_click",
     "sphinx_design",
+    "command_text",
     "mathml",
     "equations",
     "gallery",
@@ -45,6 +45,7 @@ html_sidebars = {
         "sidebar/scroll-end.html",
     ]
 }
+smartquotes = False  # of --set it would make a dash and "set"
 html_copy_source = False
 html_show_sphinx = False
 html_show_copyright = False

@@ -2,6 +2,9 @@
 
 import re
 import runpy
+import shutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -74,3 +77,17 @@ def test_font_of_the_formulas_can_draw_roots_and_comes_with_its_licence():
     growing = font["MATH"].table.MathVariants.VertGlyphCoverage.glyphs
     assert {font.getBestCmap()[ord(sign)] for sign in "\u221a()[]|"} <= set(growing)
     assert "SIL OPEN FONT LICENSE" in (folder / "OFL.txt").read_text("utf-8")
+
+
+def test_commands_are_shown_and_not_their_source(tmp_path):
+    """sphinx-click writes reStructuredText, which stays raw where a fence of Markdown reads it."""
+    pytest.importorskip("furo", reason="furo is not installed")
+    shutil.copy(DOCS / "commands.md", tmp_path / "index.md")
+    build = [sys.executable, "-m", "sphinx", "-q", "-W", "-c", DOCS, tmp_path, tmp_path / "html"]
+    subprocess.run(build, check=True)
+    page = (tmp_path / "html" / "index.html").read_text("utf-8")
+    assert ".. option::" not in page
+    assert 'id="cmdoption-wearsim-life-set"' in page
+    text = re.sub(r"<.*?>", "", page)
+    assert "--out writes result.json" in text
+    assert "wearsim life 16b-20t-oiled --explain\n" in text
