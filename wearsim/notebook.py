@@ -1,7 +1,9 @@
-"""What a Python session shows of an object: one line of text, and a table in a notebook."""
+"""What a Python session shows of an object: one line of text, and a table or a picture in a notebook."""
 
+import sys
 from collections.abc import Iterable, Sequence
 from html import escape
+from typing import Any
 
 _LONGEST, _TITLE = 200, 90
 """Letters of one line, and of the title in it."""
@@ -48,3 +50,30 @@ def _shown(text: str | Sequence[str]) -> str:
     if len(text) == 1:
         return escape(text[0])
     return f"<details><summary>{len(text)}</summary>{'<br>'.join(map(escape, text))}</details>"
+
+
+_drawn: list[object] = []
+"""The picture that the cell which runs has drawn last."""
+
+
+def show_after_semicolon(picture: object) -> None:
+    """Have a notebook show a picture although the cell ends with a semicolon, as it shows those of pyplot.
+
+    The last picture of a cell is shown; without the semicolon the notebook shows what the cell returns.
+    """
+    shell = sys.modules.get("IPython")
+    session: Any = shell and shell.get_ipython()
+    if not hasattr(session, "kernel"):
+        return
+    if not _drawn:
+        session.events.register("post_run_cell", _show_drawn)
+    _drawn[:] = [picture]
+
+
+def _show_drawn(ended: Any) -> None:
+    shell = sys.modules["IPython"]
+    session = shell.get_ipython()
+    session.events.unregister("post_run_cell", _show_drawn)
+    picture = _drawn.pop()
+    if ended.success and session.displayhook.quiet():
+        shell.display.display(picture)

@@ -10,6 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from wearsim.case.model import Case
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads, tooth_loads
+from wearsim.notebook import show_after_semicolon
 from wearsim.report.figures import depth_figure, draw_worn_flank, flanks_figure, picture_bytes
 from wearsim.report.flank_view import at_life, case_of, snapshot
 from wearsim.report.text_lines import literal
@@ -21,6 +22,7 @@ _LOAD = "load_per_width_N_per_mm"
 def shown(figure: Figure) -> Figure:
     """Return a figure that a notebook shows though pyplot does not know it."""
     vars(figure)["_repr_svg_"] = partial(_svg, figure)
+    show_after_semicolon(figure)
     return figure
 
 
