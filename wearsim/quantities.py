@@ -30,7 +30,7 @@ def quantities() -> dict[str, Quantity]:
 
 @cache
 def input_quantities() -> dict[str, Quantity]:
-    """Return the quantities by name; of a name that is a key and a column, the key, whose row stands first."""
+    """Return all quantities by name; of a name that is a key and a column, the key, whose row is first."""
     return {row.name: row for row in reversed(_rows())}
 
 

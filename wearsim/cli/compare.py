@@ -62,6 +62,7 @@ def compare(
     _check_alike(loaded.values())
     found = results_of(loaded, as_json)
     from wearsim.drive.drive_result import DriveLife
+    from wearsim.report.chain_first import chain_first_of
     from wearsim.report.comparison import comparison_table, differing_limits, distinct, save_comparison
     from wearsim.report.drive.drives_table import drives_table, save_drives
 
@@ -81,6 +82,8 @@ def compare(
         show((drives_table(drives) if drives else comparison_table(singles)).markdown())
     if limits := differing_limits(singles):
         warn(f"warning: {limits}")
+    if chain := chain_first_of(singles):
+        warn(f"warning: {chain}")
     if xlsx is not None:
         write_workbook(found, xlsx, force)
     failed = show_failed_parts(found)

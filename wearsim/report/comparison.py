@@ -7,6 +7,7 @@ from pathlib import Path
 from wearsim.files import new_folder
 from wearsim.report.answer import governing_text, headline, limit_text
 from wearsim.report.answer_table import AnswerTable, Column, life_columns
+from wearsim.report.chain_first import chain_first_of
 from wearsim.report.figures import comparison_figures, save_figure
 from wearsim.result import Life, LowerBound, WearResult
 from wearsim.result.lives import hours
@@ -102,9 +103,8 @@ def save_comparison(results: list[WearResult], folder: Path, force: bool) -> Non
 
 def _page(results: list[WearResult], table: str) -> str:
     parts = ["# Comparison", table]
-    limits = differing_limits(results)
-    if limits:
-        parts.append(f"- warning: {limits}")
+    cautions = filter(None, (differing_limits(results), chain_first_of(results)))
+    parts += [f"- warning: {text}" for text in cautions]
     for result in results:
         parts.append(f"## {result.title}")
         parts.append("\n".join(f"- warning: {text}" for text in result.warnings) or "No warnings.")

@@ -12,6 +12,7 @@ import pandas as pd
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column, records_of
+from wearsim.report.chain_first import chain_first, is_of_form
 from wearsim.report.study_files import save_figures, save_files
 from wearsim.runner.shard import life_columns
 from wearsim.study.sweep.model import Sweep
@@ -28,6 +29,14 @@ def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
         *(Column("", itemgetter(column), f"{name}, h", grouped) for name, column in parts),
     ]
     return AnswerTable(columns, table.to_dict("records")).markdown()
+
+
+def sweep_caution(sweep: Sweep, table: pd.DataFrame) -> str:
+    """Return a warning where tooth forms of one sprocket are swept and the chain ends first."""
+    if sweep.design.parts or not any(map(is_of_form, sweep.design.keys)):
+        return ""
+    text = chain_first(table.loc[table["error"] == "", "stop"])
+    return text and f"{text}; wearsim life of a case gives the service life of its sprocket too"
 
 
 def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
