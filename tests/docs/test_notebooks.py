@@ -35,7 +35,7 @@ def test_learn_lists_every_notebook():
     learn = (DOCS / "index.md").read_text("utf-8").split(":caption: Learn")[1].split("```")[0]
     listed = re.findall(r"^notebooks/(\w+)$", learn, re.M)
     assert sorted(listed) == [path.stem for path in NOTEBOOKS]
-    assert len(listed) == 3
+    assert len(listed) == 4
 
 
 def test_a_cell_that_fails_ends_the_build():
@@ -59,6 +59,13 @@ def test_notebook_is_complete(path):
         ast.parse(cell["code"])
         drawn = re.search(r"\.plot\w*[(.]", cell["code"])
         assert bool(drawn) == ("    alt: " in (cell["options"] or "")), cell["code"]
+
+
+def test_source_paper_comes_to_the_life_of_the_engine():
+    """Plain NumPy and the engine are two programs; 995 MPa is what two more found (physics.md)."""
+    names = run("source_paper")
+    assert names["pressure"].max() == pytest.approx(995.0, rel=5e-3)
+    assert names["life_hours"] == pytest.approx(names["result"].life.hours, rel=5e-3)
 
 
 @pytest.mark.slow
