@@ -21,7 +21,7 @@ pytestmark = pytest.mark.wide
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = (
     *("tutorial", "howto_chain", "howto_drive", "howto_select", "howto_profile", "howto_duty"),
-    "howto_lubrication",
+    *("howto_lubrication", "tooth_forms"),
     *("howto_measured_sprocket", "judge", "python"),
 )
 LINKS = [
