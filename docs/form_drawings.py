@@ -1,6 +1,6 @@
 """Draw where a roller presses on each tooth form: ``python docs/form_drawings.py docs/tooth_forms.svg``.
 
-Drive E of research/tooth_forms.py, its first tooth under a new chain; tests/docs/test_tooth_forms.py compares.
+Drive E of research/tooth_forms.py, its first tooth under a new chain.
 """
 
 import math
@@ -62,7 +62,7 @@ def scene() -> Scene:
     return Scene(
         (-0.5 * APART, -ROW - 3.6, APART * COLUMNS, 2.0 * ROW + 0.6),
         tuple(shapes),
-        f"The gap of five tooth forms with the roller on the first tooth; pressure angles, degrees: {angles}.",
+        f"Gaps of five tooth forms with the roller on its first tooth; pressure angles, degrees: {angles}.",
     )
 
 

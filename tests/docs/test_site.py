@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 from fontTools.ttLib import TTFont
 
+import wearsim
+
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 LINKS = runpy.run_path(str(ROOT / ".ci" / "links.py"))
@@ -91,3 +93,19 @@ def test_commands_are_shown_and_not_their_source(tmp_path):
     text = re.sub(r"<.*?>", "", page)
     assert "--out writes result.json" in text
     assert "wearsim life 16b-20t-oiled --explain\n" in text
+
+
+def test_every_public_name_stands_on_one_page_of_a_topic():
+    pages = sorted((DOCS / "api").glob("*.md"))
+    shown = [
+        name
+        for page in pages
+        for name in re.findall(r"^\.\. auto(?:function|class):: (\w+)$", page.read_text("utf-8"), re.M)
+    ]
+    assert sorted(shown) == sorted(set(wearsim.__all__) - {"__version__"})
+    index = (DOCS / "python.md").read_text("utf-8").split("## All names")[1]
+    assert sorted(re.findall(r"^api/(\w+)$", index, re.M)) == [page.stem for page in pages]
+    rows = dict(re.findall(r"^\| \[.*?\]\(api/(\w+)\.md\) \| (.*) \|$", index, re.M))
+    for page in pages:
+        names = re.findall(r"^\.\. auto(?:function|class):: (\w+)$", page.read_text("utf-8"), re.M)
+        assert not names or re.findall(r"`(\w+)`", rows[page.stem]) == names
