@@ -32,8 +32,14 @@ html_theme = "furo"
 html_title = f"wearsim {release}"
 html_math_renderer = "mathml"
 html_static_path = ["_static"]
-html_css_files = ["math.css", "gallery.css", "notebooks.css", "versions.css"]
-html_js_files = ["version_switch.js", "scrolling.js"]
+html_logo = "_static/logo.svg"
+html_favicon = "_static/logo.svg"
+html_theme_options = {
+    "light_css_variables": {"color-brand-primary": "#0b57a4", "color-brand-content": "#0b57a4"},
+    "dark_css_variables": {"color-brand-primary": "#7db7ff", "color-brand-content": "#7db7ff"},
+}
+html_css_files = ["site.css", "math.css", "gallery.css", "notebooks.css", "versions.css"]
+html_js_files = ["version_switch.js", "scrolling.js", "search_sections.js"]
 templates_path = ["_templates"]
 html_sidebars = {
     "**": [

@@ -1,5 +1,8 @@
 """The directive ``{thumbnails}``: a card for every page of the gallery, with its first picture."""
 
+import re
+from pathlib import Path
+
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from sphinx.application import Sphinx
@@ -17,9 +20,20 @@ class ThumbnailsDirective(Directive):
         return [Thumbnails()]
 
 
+_SIDES = re.compile(r'viewBox="\S+ \S+ (\S+) (\S+)"')
+
+
+def _is_tall(picture: Path) -> bool:
+    """Whether a drawing is higher than a card."""
+    width, height = map(float, _SIDES.search(picture.read_text("utf-8")).groups())
+    return height > 0.75 * width
+
+
 def _card(app: Sphinx, page: str, seen_from: str) -> nodes.paragraph:
     picture = next(app.env.get_doctree(page).findall(nodes.image)).deepcopy()
     picture["alt"] = ""  # the title beside it says what it is
+    if _is_tall(Path(app.srcdir, picture["uri"])):
+        picture["classes"].append("tall")
     link = nodes.reference(
         "", "", picture, internal=True, refuri=app.builder.get_relative_uri(seen_from, page)
     )
