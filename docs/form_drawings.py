@@ -17,7 +17,7 @@ from wearsim.mechanisms.wrap.tooth_loads import tooth_loads
 DOCS = Path(__file__).parent
 RESEARCH = runpy.run_path(str(DOCS.parent / "research" / "tooth_forms.py"))
 SVG = runpy.run_path(str(DOCS / "strand_drawings.py"))["svg"]
-COLUMNS, APART, ROW, HIGH = 3, 14.5, 15.0, 0.85
+COLUMNS, APART, ROW, HIGH = 3, 14.5, 15.0, 1.05
 """Drawings in a row, their distances to the right and down, and the height of the letters [mm]."""
 
 

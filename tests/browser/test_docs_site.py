@@ -1,10 +1,13 @@
 """Pages of the documentation in a real browser: the switch of versions, roots that grow, and axe."""
 
+import functools
 import io
 import runpy
 import shutil
 import subprocess
 import sys
+import threading
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
@@ -83,6 +86,10 @@ FRONT = """\
 other
 ```
 
+## Deep
+
+A word, zanzibar, that one section has.
+
 ## Wide
 
 | a table | of words |
@@ -134,3 +141,35 @@ def test_what_is_too_wide_scrolls_by_keys(page, pages):
     page.locator("pre").focus()
     page.keyboard.press("ArrowRight")
     page.wait_for_function("document.querySelector('pre').scrollLeft > 0")
+
+
+class _Silent(SimpleHTTPRequestHandler):
+    """A server that logs nothing."""
+
+    def log_message(self, *_):
+        """Write no line of a log."""
+
+
+@pytest.fixture
+def served(pages):
+    """Address of the pages on a server: a browser fetches none of a file's neighbours."""
+    server = ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(_Silent, directory=pages))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}"
+    server.shutdown()
+    server.server_close()
+
+
+def test_search_leads_to_the_section_and_narrows_to_a_part(page, served):
+    page.goto(f"{served}/search.html?q=zanzibar")
+    link = page.locator(".found-section a")
+    link.wait_for()
+    assert link.inner_text() == "Deep"
+    assert link.get_attribute("href").endswith("index.html#deep")
+    page.goto(f"{served}/search.html?q=other")
+    page.locator(".found-part").wait_for()
+    assert page.locator(".found-part").inner_text() == "Learn"
+    assert page.locator(".search > li").first.is_visible()
+    page.evaluate("document.querySelector('.search > li').dataset.part = 'Theory'")
+    page.get_by_label("Show results of").select_option("Learn")
+    assert page.locator(".search > li").first.is_hidden()
