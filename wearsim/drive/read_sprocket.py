@@ -4,6 +4,7 @@ import copy
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from pathlib import PurePath
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
@@ -131,7 +132,7 @@ def _title(case: ChainRecord, kind: str) -> str:
     name = given.get("designation")
     chain = f"{name} chain" if name else f"chain of {given['pitch_mm']:g} mm pitch"
     if kind == "prescribed":
-        return f"Flank under the loads of {case.inputs['mechanism']['table_file']}"
+        return f"Flank under the loads of {PurePath(case.inputs['mechanism']['table_file']).name}"
     if kind == "wrap":
         return f"{chain[0].upper()}{chain[1:]} around a sprocket of {sprocket['teeth']} teeth"
     return f"{TOOTH_FORMS[sprocket['profile']].on_strand}, {chain}, {sprocket['teeth']} teeth"

@@ -8,9 +8,10 @@ from pathlib import PurePath
 from typing import Any
 
 from wearsim.errors import CaseError, Fault
+from wearsim.input.column_files import COLUMN_KEYS, column_file, is_columns
 from wearsim.input.document import GivenInput
 from wearsim.input.keys import schema_of, tables_in
-from wearsim.input.table import Table, is_number
+from wearsim.input.table import Table, is_number, without_numbers
 
 _CHANGED = ", changed by with_"
 
@@ -40,10 +41,13 @@ def changed(given: GivenInput, changes: Mapping[str, Any]) -> GivenInput:
 def _flat(changes: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """Give dotted keys and plain values of changes, which may be nested tables too."""
     for key, value in changes.items():
-        if isinstance(value, Mapping):
-            yield from _flat(value, f"{prefix}{key}.")
+        whole = f"{prefix}{key}"
+        if without_numbers(whole) in COLUMN_KEYS and is_columns(value):
+            yield whole, column_file(value, whole)
+        elif isinstance(value, Mapping):
+            yield from _flat(value, f"{whole}.")
         else:
-            yield f"{prefix}{key}", plain_value(value)
+            yield whole, plain_value(value)
 
 
 def plain_value(value: Any) -> Any:

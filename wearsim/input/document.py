@@ -7,13 +7,14 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
 from wearsim.catalogue.shipped_cases import place_of_case, similar_case
 from wearsim.errors import CaseError, Fault
+from wearsim.input.column_files import with_column_files
 from wearsim.input.faults import Faults
 from wearsim.input.table import CalculationTables, Table
 
@@ -71,8 +72,9 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
 
 def _given(source: str | Path | CaseText | Mapping[str, Any]) -> GivenInput:
     if isinstance(source, Mapping):
-        _check_depth(dict(source), "case")
-        data = copy.deepcopy(dict(source))
+        tables = with_column_files(source)
+        _check_depth(tables, "case")
+        data = copy.deepcopy(tables)
         return GivenInput("case", "case", Path(), "", data, data)
     path = source.path if isinstance(source, CaseText) else place_of_case(Path(source))
     text = source.text if isinstance(source, CaseText) else text_of(path)
@@ -104,7 +106,7 @@ def retitled(tables: Mapping[str, Any], written: Mapping[str, Any]) -> dict[str,
     if not isinstance(title, str) or not title or title != written.get("title"):
         return dict(tables)
     changes = {
-        "with": [f"{key} = {_shown(now[key])}" for key in now if now[key] != before.get(key)],
+        "with": [f"{key} = {_shown(key, now[key])}" for key in now if now[key] != before.get(key)],
         "without": [key for key in before if key not in now],
     }
     told = [f", {word} {', '.join(keys)}" for word, keys in changes.items() if keys]
@@ -129,7 +131,9 @@ def leaves(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, A
             yield f"{prefix}{name}", value
 
 
-def _shown(value: Any) -> str:
+def _shown(key: str, value: Any) -> str:
+    if key.endswith("_file"):
+        return PurePath(str(value)).name
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 

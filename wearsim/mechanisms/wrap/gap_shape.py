@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from pathlib import PurePath
 from typing import Any, Literal
 
 import numpy as np
@@ -190,14 +191,14 @@ def _drawn(case: ChainRecord, table: SprocketTable, chain: Chain, nodes: int) ->
     try:
         outline = gap_from_points(x, y, noise, nodes, 0.5 * chain.roller_diameter)
     except GeometryError as error:
-        case.faults.add(key, f"{name}: {error}")
+        case.faults.add(key, f"{PurePath(name).name}: {error}")
         return None
     count = 2 * x.size if abs(x[0]) <= ON_CENTRE_LINE else x.size
     if count < _ENOUGH_POINTS:
         case.warnings.append(
-            f"{name} gives the gap by {count} points: where arcs meet the outline may be 0.01 mm off, "
-            f"forces then by several percent; give {_ENOUGH_POINTS} or more, in a drawing arcs or shorter "
-            "lines"
+            f"{PurePath(name).name} gives the gap by {count} points: where arcs meet the outline may be "
+            f"0.01 mm off, forces then by several percent; give {_ENOUGH_POINTS} or more, in a drawing arcs or "
+            "shorter lines"
         )
     return GapShape(outline, None) if _seats_roller(case, key, outline, table, chain) else None
 
@@ -209,7 +210,7 @@ def _points(case: ChainRecord, key: str, name: str, table: SprocketTable) -> tup
         found = read_points(path, key, case.faults)
         step = 0.0 if found is None else rounding_step(np.column_stack(found), 1.0)
         if step > math.sqrt(12.0) * (table.points_noise_mm or POINTS_NOISE):
-            case.warnings.append(f"{name}: {rounding_text(step)}: {EFFECT}")
+            case.warnings.append(f"{path.name}: {rounding_text(step)}: {EFFECT}")
         return found
     tolerance = table.dxf_join_tolerance_mm
     if tolerance is None:
