@@ -37,6 +37,7 @@ _PUBLIC = {
     "judge": "wearsim.study.judge.answer",
     "load_case": "wearsim.drive.load_case",
     "loads": "wearsim.report.loads_result",
+    "lubricant": "wearsim.lubrication.own_lubricant",
     "lubricate": "wearsim.study.lubricate.answer",
     "maintain": "wearsim.study.maintain.answer",
     "optimise": "wearsim.study.optimise.answer",
@@ -60,6 +61,7 @@ if TYPE_CHECKING:
     from wearsim.drive.load_case import load_case
     from wearsim.drive.simulate import simulate, simulate_many
     from wearsim.errors import CaseError, ContactError, ConvergenceError, GeometryError, WearsimError
+    from wearsim.lubrication.own_lubricant import lubricant
     from wearsim.report.check import CheckResult, check
     from wearsim.report.loads_result import LoadsResult, loads
     from wearsim.result import Life, LowerBound, WearResult
@@ -109,6 +111,7 @@ __all__ = [
     "judge",
     "load_case",
     "loads",
+    "lubricant",
     "lubricate",
     "maintain",
     "optimise",

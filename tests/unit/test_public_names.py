@@ -18,7 +18,7 @@ CalibrationResult Case CaseError ChainReadingsResult CheckResult ContactError Co
 DriveLife ExportResult GeometryError JudgementResult Life LoadsResult LowerBound LubricationResult
 MaintenanceResult OptimiseResult RemainingResult SelectionResult SweepResult UncertaintyResult WearResult
 WearsimError YearPlanResult
-__version__ calibrate check export judge load_case loads lubricate maintain optimise progress_bar
+__version__ calibrate check export judge load_case loads lubricant lubricate maintain optimise progress_bar
 remaining select simulate simulate_many sweep uncertainty
 """
 """What programs of users may name; one that goes stands in `_FORMER` first: CONTRIBUTING.md says how long."""

@@ -128,6 +128,7 @@ class Lubricant:
     dry_factor: float | None  # coefficient of dry contacts over that of lubricated ones
     contamination_removed: float | None  # part of what dirt adds that an application takes away
     source: str  # where the numbers come from
+    is_own: bool = False  # whether a program gave it, not the table
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,8 @@ def lubrication_input(
     reader = _Reader(case, table, row, km_per_hour)
     if row is not None:
         _say_coefficients(case, row, condition)
+        if row.is_own:
+            case.assumptions.append(f"lubricant {row.lubricant!r} is the user's: {row.source}")
     return reader.input()
 
 

@@ -197,8 +197,8 @@ def _drawn(case: ChainRecord, table: SprocketTable, chain: Chain, nodes: int) ->
     if count < _ENOUGH_POINTS:
         case.warnings.append(
             f"{PurePath(name).name} gives the gap by {count} points: where arcs meet the outline may be "
-            f"0.01 mm off, forces then by several percent; give {_ENOUGH_POINTS} or more, in a drawing arcs or "
-            "shorter lines"
+            f"0.01 mm off, forces then by several percent; give {_ENOUGH_POINTS} or more, in a drawing arcs "
+            "or shorter lines"
         )
     return GapShape(outline, None) if _seats_roller(case, key, outline, table, chain) else None
 
