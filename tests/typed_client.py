@@ -29,6 +29,11 @@ def main() -> None:
     drive = assert_type(wearsim.select(power=2, rpm=150, ratio=2, hours=5000).case(), wearsim.DriveCase)
     drive = assert_type(drive.with_({"mechanism.phases": 2, "run.life_tolerance": 0.1}), wearsim.DriveCase)
 
+    assert case.load.speed_rpm == 150
+    assert [one.teeth for one in drive.sprocket] == [
+        one.case.tables.sprocket.teeth for one in drive.sprockets if one.case.tables.sprocket
+    ]
+
     with wearsim.progress_bar("wearing") as progress:
         result = assert_type(wearsim.simulate(case, progress), wearsim.WearResult | wearsim.DriveLife)
     assert_type(result.history, pd.DataFrame)

@@ -3,12 +3,13 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
 
+from wearsim.case.read_tables import ReadTables
 from wearsim.chain.rating_findings import RatingFinding
 from wearsim.contact.engagement import ContactKind, Engagement, FlankContact, Mechanism
 from wearsim.contact.stop_limits import LIMITS, StopLimit, deepest, stop_limit
@@ -23,6 +24,9 @@ from wearsim.input.input_origins import input_lines
 from wearsim.input.mechanism_registry import read_case
 from wearsim.lubrication.model import LubricationInput
 from wearsim.notebook import html_rows, one_line
+
+if TYPE_CHECKING:
+    from wearsim.case.keys import SprocketTable
 
 
 @dataclass(frozen=True)
@@ -284,7 +288,7 @@ class FatigueInput:
 
 
 @dataclass(frozen=True, eq=False)
-class Case:
+class Case(ReadTables):
     """A complete, feasible case.
 
     Attributes
@@ -295,6 +299,9 @@ class Case:
         What it is about.
     inputs : mapping
         All tables with every default taken, as an input file would give them.
+    tables : CaseTables
+        The same with keys as attributes, ``case.tables.wear.law``, read-only; `chain`, `sprocket`, `load`,
+        `mechanism`, `material`, `joint` and `stop` are attributes of the case too, ``case.load.power_kW``.
     files : tuple of pathlib.Path
         CSV files and drawings that it read.
     input_files : mapping
@@ -356,6 +363,16 @@ class Case:
 
     def _repr_html_(self) -> str:
         return html_rows(self.title, input_lines(self.inputs, self.assumptions, self.warnings))
+
+    @property
+    def complete_inputs(self) -> Mapping[str, Any]:
+        """All tables with every default taken."""
+        return self.inputs
+
+    @cached_property
+    def sprocket(self) -> "SprocketTable | None":
+        """Keys of [sprocket]; None where a table gives the loads."""
+        return self.tables.sprocket
 
     @property
     def single_cases(self) -> "dict[str, Case]":

@@ -2,10 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from wearsim.case.model import Case
+from wearsim.case.read_tables import ReadTables
 from wearsim.drive.wheels import DRIVER, DriveWheel
 from wearsim.errors import CaseError, Fault
 from wearsim.input.changes import changed
@@ -15,6 +17,9 @@ from wearsim.input.mechanism_registry import read_case
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.notebook import html_rows, one_line
 from wearsim.quantities import kind_of_text, with_ranges
+
+if TYPE_CHECKING:
+    from wearsim.case.keys import PlacedSprocketTable
 
 
 @dataclass(frozen=True)
@@ -33,7 +38,7 @@ class DriveSprocket:
 
 
 @dataclass(frozen=True)
-class DriveCase:
+class DriveCase(ReadTables):
     """A drive whose sprockets share one chain.
 
     Attributes
@@ -44,6 +49,10 @@ class DriveCase:
         What it is about.
     inputs : mapping
         Tables of the file.
+    tables : DriveTables
+        The same with every default and keys as attributes, ``drive.tables.run.method``, read-only. `chain`,
+        `sprocket` (a list), `load`, `mechanism`, `material`, `joint` and `stop` are attributes of the drive
+        too. What differs between sprockets is in their own cases; here it is as of the driver.
     sprockets : tuple of DriveSprocket
         In the order of the file, each with the ``case`` of it alone.
     wheels : tuple of DriveWheel
@@ -64,6 +73,22 @@ class DriveCase:
 
     def _repr_html_(self) -> str:
         return html_rows(self.title, input_lines(self.inputs, self.assumptions, self.warnings))
+
+    @cached_property
+    def complete_inputs(self) -> Mapping[str, Any]:
+        """All tables with every default taken: those of all sprockets as the driver has them."""
+        of_driver = {**self.driver.case.inputs, "drive": {**self.driver.case.inputs["drive"]}}
+        of_driver["drive"].pop("mate_teeth", None)
+        sprockets = [
+            {**self.single_cases[wheel.parts[0]].inputs["sprocket"], **given}
+            for wheel, given in zip(self.wheels, self.inputs["sprocket"], strict=True)
+        ]
+        return {**self.inputs, **of_driver, "title": self.title, "sprocket": sprockets}
+
+    @cached_property
+    def sprocket(self) -> "list[PlacedSprocketTable]":
+        """Keys of every [[sprocket]]."""
+        return cast("list[PlacedSprocketTable]", self.tables.sprocket)
 
     def with_(self, changes: Mapping[str, Any]) -> "DriveCase":
         """Return the drive with other values of some keys, read anew.
