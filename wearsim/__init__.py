@@ -48,6 +48,7 @@ _PUBLIC = {
     "simulate_many": "wearsim.drive.simulate",
     "sweep": "wearsim.study.sweep.answer",
     "uncertainty": "wearsim.study.uncertainty.answer",
+    "wear_law": "wearsim.catalogue.own_wear_laws",
 }
 
 _FORMER: dict[str, tuple[str, str]] = {}
@@ -56,6 +57,7 @@ _FORMER: dict[str, tuple[str, str]] = {}
 if TYPE_CHECKING:
     from wearsim.cad.export import ExportResult, export
     from wearsim.case.model import Case
+    from wearsim.catalogue.own_wear_laws import wear_law
     from wearsim.drive.drive_case import DriveCase
     from wearsim.drive.drive_result import DriveLife
     from wearsim.drive.load_case import load_case
@@ -122,6 +124,7 @@ __all__ = [
     "simulate_many",
     "sweep",
     "uncertainty",
+    "wear_law",
 ]
 
 __getattr__, __dir__ = lazy_names(__name__, _PUBLIC, _FORMER)

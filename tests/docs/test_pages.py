@@ -16,13 +16,13 @@ import pytest
 
 import wearsim.cli
 
-pytestmark = pytest.mark.wide
+pytestmark = [pytest.mark.wide, pytest.mark.usefixtures("catalogue_as_before")]
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = (
     *("tutorial", "howto_chain", "howto_drive", "howto_select", "howto_profile", "howto_duty"),
     *("howto_lubrication", "tooth_forms"),
-    *("howto_measured_sprocket", "judge", "python"),
+    *("howto_measured_sprocket", "judge", "python", "laboratory"),
 )
 LINKS = [
     (page, link)

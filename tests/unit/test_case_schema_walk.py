@@ -392,6 +392,7 @@ CHANGES = {
     "wear.condition": [("strand", "soil-contaminated"), ("archard", "hardened, dry", "wear.condition")],
     "wear.specific_wear_rate_mm2_per_N": [("archard", 2e-10), ("strand", 1e-10, "wear.condition")],
     "wear.coefficient": [("power law", 2e-14), ("drozdov", 2e-6)],
+    "wear.constants": [("strand", {"k": 1.0}, "wear.constants")],
     "wear.pressure_exponent": [
         ("power law", 2.01),
         ("drozdov", 1.51),

@@ -217,6 +217,7 @@ CHANGES: dict[str, list[tuple[Any, ...]]] = {
     ],
     "load.torque_N_m": [("archard", 210.0)],
     "load.speed_rpm": [("archard", 110.0)],
+    "wear.constants": [("archard", {"k": 1.0}, "wear.constants")],
     "wear.law": [("archard", "power", "wear.specific_wear_rate_mm2_per_N")],
     "wear.condition": [("archard", "hardened, oiled", "wear.condition")],
     "wear.specific_wear_rate_mm2_per_N": [("archard", 2e-10)],

@@ -8,13 +8,7 @@ from wearsim.catalogue.catalogues import lubricants
 NUMBERS = {"lasts_sliding_m": 500.0, "fades_over_sliding_m": 100.0, "dry_factor": 20.0}
 
 
-@pytest.fixture(autouse=True)
-def as_before():
-    """The catalogue as it was."""
-    kept = dict(lubricants())
-    yield
-    lubricants().clear()
-    lubricants().update(kept)
+pytestmark = pytest.mark.usefixtures("catalogue_as_before")
 
 
 def case(lubrication):
@@ -62,8 +56,8 @@ def test_more_of_it_lasts_longer():
     ],
 )
 def test_a_wrong_row_is_refused(values, words):
-    row = {"name": "mine", "wear_condition": "hardened, oiled", "source": "own rig", **NUMBERS, **values}
+    row = {"name": "new", "wear_condition": "hardened, oiled", "source": "own rig", **NUMBERS, **values}
     with pytest.raises(wearsim.CaseError) as caught:
         wearsim.lubricant(**row)
     assert words in str(caught.value)
-    assert "mine" not in lubricants()
+    assert "new" not in lubricants()

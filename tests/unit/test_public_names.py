@@ -19,7 +19,7 @@ DriveLife ExportResult GeometryError JudgementResult Life LoadsResult LowerBound
 MaintenanceResult OptimiseResult RemainingResult SelectionResult SweepResult UncertaintyResult WearResult
 WearsimError YearPlanResult
 __version__ calibrate check export judge load_case loads lubricant lubricate maintain optimise progress_bar
-remaining select simulate simulate_many sweep uncertainty
+remaining select simulate simulate_many sweep uncertainty wear_law
 """
 """What programs of users may name; one that goes stands in `_FORMER` first: CONTRIBUTING.md says how long."""
 

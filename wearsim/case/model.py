@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar
 import numpy as np
 
 from wearsim.case.read_tables import ReadTables
+from wearsim.catalogue.own_wear_laws import own_wear_laws
 from wearsim.chain.rating_findings import RatingFinding
 from wearsim.contact.engagement import ContactKind, Engagement, FlankContact, Mechanism
 from wearsim.contact.stop_limits import LIMITS, StopLimit, deepest, stop_limit
@@ -222,7 +223,12 @@ class WearInput:
     @property
     def pressure_exponent(self) -> float:
         """Power m of the pressure; 1 of a law without a key for it."""
-        return self.constants.get("pressure_exponent", 1.0)
+        return 1.0 if self.is_own else self.constants.get("pressure_exponent", 1.0)
+
+    @property
+    def is_own(self) -> bool:
+        """Whether the law is a function that the program gave."""
+        return self.law in own_wear_laws()
 
     @property
     def is_steady(self) -> bool:
@@ -234,7 +240,7 @@ class WearInput:
         """Key of [wear] by which the mechanism of wear changes with load and speed; empty for none."""
         if self.severe_factor != 1.0:
             return "pv_limit_MPa_mm_per_s"
-        return "law" if self.law == "t_gamma" else ""
+        return "law" if self.law == "t_gamma" or self.is_own else ""
 
 
 class WearBand(NamedTuple):

@@ -10,6 +10,7 @@ from wearsim.case.keys import MaterialTable, RunTable, SprocketTable, Table, Wea
 from wearsim.case.keys.wear_tables import FatigueTable, FilmTable, FlankMaterialTable
 from wearsim.case.model import Drive, FatigueInput, FilmInput, RunInput, WearInput
 from wearsim.catalogue.catalogues import Chain, materials, wear_conditions, wear_laws
+from wearsim.catalogue.own_wear_laws import OwnWearLaw, own_wear_laws
 from wearsim.contact.hertz import contact_modulus
 from wearsim.fatigue.contact_fatigue import FlankMaterial
 from wearsim.input.faults import CaseRecord
@@ -92,6 +93,8 @@ def wear_input(case: CaseRecord, table: WearTable) -> WearInput:
 
 
 def _law(case: CaseRecord, table: WearTable) -> WearInput:
+    if table.law in own_wear_laws():
+        return _own_law(case, table, own_wear_laws()[table.law])
     key, *constants = wear_laws()[table.law].keys
     coefficient: float | None = getattr(table, key)
     if table.condition is not None and coefficient is None:
@@ -109,6 +112,31 @@ def _law(case: CaseRecord, table: WearTable) -> WearInput:
         law=table.law,
         coefficient=coefficient,
         constants={key: getattr(table, key) for key in constants},
+        low=1.0 / factor,
+        high=factor,
+        band=f"factor {factor:g} to either side",
+    )
+
+
+def _own_law(case: CaseRecord, table: WearTable, law: OwnWearLaw) -> WearInput:
+    """Return a law of the program, with the constants that the case leaves out."""
+    given = table.constants or {}
+    for name, constant in law.constants.items():
+        if name not in given:
+            case.take(f"wear.constants.{name}", constant.value, f"wear law {law.name!r}")
+    if table.coefficient is None:
+        case.take("wear.coefficient", 1.0, f"factor on wear law {law.name!r}")
+    case.assumptions.append(f"wear law {law.name!r} is a function of the program: {law.source}")
+    constants = {name: float(given.get(name, constant.value)) for name, constant in law.constants.items()}
+    for name, value in constants.items():
+        if not law.constants[name].low <= value <= law.constants[name].high:
+            text = f"{law.constants[name].low:g} to {law.constants[name].high:g}, in which the law holds"
+            case.faults.add(f"wear.constants.{name}", f"must lie in {text} (got {value:g})")
+    factor = _band_factor(case, table)
+    return WearInput(
+        law=law.name,
+        coefficient=table.coefficient or 1.0,
+        constants=constants,
         low=1.0 / factor,
         high=factor,
         band=f"factor {factor:g} to either side",

@@ -173,7 +173,7 @@ _Batch = tuple[list[list[_FlankJob]], list[float], "Future[list[Worn]]"]
 
 def _job(case: Case) -> _CaseJob | None:
     """Return the job of a case; None where it runs alone, to its error if it has one."""
-    alone = case.drive.rests or case.fatigue is not None
+    alone = case.drive.rests or case.fatigue is not None or case.wear.is_own
     if alone or case.run.method != "advance":
         return None
     try:

@@ -7,6 +7,7 @@ from typing import TypeVar
 import numpy as np
 
 from wearsim.case.model import Case, WearInput, heaviest_block
+from wearsim.catalogue.own_wear_laws import own_wear_laws
 from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.hertz import peak_pressure
 from wearsim.contact.stop_limits import StopLimit
@@ -21,6 +22,7 @@ from wearsim.wear.law import (
     LAWS,
     RelativeLoad,
     WearLaw,
+    archard,
     equivalent_factor,
     mean_pressure_factor,
     with_pressure_speed_limit,
@@ -66,11 +68,29 @@ def wear_tasks(case: Case, contacts: Iterable[FlankContact]) -> list[WearTask[Fl
 def _task(case: Case, law: WearLaw, contact: FlankContact) -> WearTask[FlankContact]:
     if case.wear.law == "t_gamma":
         _check_t_gamma(case, contact)
+    worn_by = contact
+    if case.wear.is_own:
+        law, worn_by = _own_law(case, law, contact)
     changes = case.wear.running_in_factor != 1.0 or case.lubrication is not None
     sliding = sliding_per_cycle(case, contact) if changes else 0.0
     clock = contact_clock(case, sliding, sliding)
     law = replace(law, running_in=clock.part)
-    return task_of(case, contact, law, case.drive.stop_limits(case, contact), clock)
+    return task_of(case, worn_by, law, case.drive.stop_limits(case, contact), clock)
+
+
+def _own_law(case: Case, law: WearLaw, contact: FlankContact) -> tuple[WearLaw, FlankContact]:
+    """Return the law of a program in the place of one with its coefficient, and the contact it wears by."""
+    from wearsim.wear.own_law import DepthFunction, own_law
+
+    depth = DepthFunction(own_wear_laws()[case.wear.law], dict(case.wear.constants), case.name)
+    if case.run.method != "advance":
+        text = f"must be 'advance' with a wear law of the program (got {case.run.method!r})"
+        raise CaseError([Fault(text, "run.method", case.name)])
+    if "gear" in case.inputs and depth.depends_on_slip(contact.new_engagement(), contact.modulus):
+        raise depth.fault("must not depend on the slip on gears, which is another on either flank")
+    made, worn_by = own_law(depth, contact, law.coefficient)
+    same = {name: getattr(law, name) for name in ("case_depth", "core_factor", "severity")}
+    return replace(made, **same), worn_by
 
 
 def task_of(
@@ -125,7 +145,7 @@ def _law(case: Case) -> WearLaw:
 
 def wear_law(wear: WearInput, coefficient: float) -> WearLaw:
     """Return the law of a case with a coefficient of one's own."""
-    law = LAWS[wear.law](coefficient, *wear.constants.values())
+    law = archard(coefficient) if wear.is_own else LAWS[wear.law](coefficient, *wear.constants.values())
     law = with_pressure_speed_limit(law, wear.pv_limit, wear.severe_factor)
     return replace(law, case_depth=wear.case_depth, core_factor=wear.core_factor)
 

@@ -56,7 +56,7 @@ SAFETY, LEAST, MAX = 0.9, 0.2, 4.0
 """A step grows or shrinks by SAFETY error^(-1/3) within these."""
 
 LEAST_STEP = 1e-11
-"""A step shorter than this part of the time so far is none."""
+"""A step of at most this part of the time so far is none, nor is one of 0 at its start."""
 
 
 @kernel(float64(TABLE, TABLE, float64, int64, float64, int64))
@@ -288,7 +288,7 @@ def wear_in_steps(
             clock[RATES] += 5.0
             if error <= 1.0 and part == 1.0 and status not in (CONFORMING, BROKEN):
                 break
-            if step < LEAST_STEP * clock[TIME]:
+            if step <= LEAST_STEP * clock[TIME]:
                 return BROKEN
             grown = 1.0
             if part < 1.0:

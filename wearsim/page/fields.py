@@ -49,6 +49,8 @@ def form_fields(data: Mapping[str, Any]) -> dict[str, list[Field]]:
     """
     found: dict[str, list[Field]] = {}
     for key, info in schema_fields(schema_of(data)):
+        if key == "wear.constants":  # of laws that only a program has
+            continue
         field = _field(key, info)
         for place in _places(key, data):
             if place.endswith("[]"):  # where one more is added: behind those that there are

@@ -15,7 +15,7 @@ from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.wheels import part_names
 from wearsim.errors import CaseError, Fault
 from wearsim.input.document import Document
-from wearsim.input.keys import schema_fields, schema_of
+from wearsim.input.keys import is_dict, schema_fields, schema_of
 from wearsim.input.mechanism_registry import MECHANISMS, WHOLE_DRIVE, mechanism_of
 from wearsim.input.table import is_number, without_numbers
 from wearsim.jit.compiled import source_hash
@@ -199,8 +199,11 @@ def unknown_key(tables: Mapping[str, Any], key: str) -> str:
     >>> unknown_key({"chain": {}}, "load.powr_kW")
     "must be a key of a case; did you mean 'load.power_kW' or 'duty.power_kW'?"
     """
-    known = {key.replace("[]", "") for key, _ in schema_fields(schema_of(tables))}
-    plain = without_numbers(key)
+    fields = {key.replace("[]", ""): field for key, field in schema_fields(schema_of(tables))}
+    known, plain = set(fields), without_numbers(key)
+    holder = fields.get(plain.rpartition(".")[0])
+    if holder is not None and is_dict(holder.annotation):
+        return ""
     return "" if plain in known else f"must be a key of a case{nearest(plain, dict.fromkeys(known))}"
 
 

@@ -25,6 +25,7 @@ from wearsim.kernels.hertz_wear import DEPTH_REACHED, HORIZON, RATE, RUNNING, SA
 from wearsim.kernels.rosenbrock import STAGES, WORK_ROWS, rosenbrock_step
 from wearsim.wear.limit_in_step import first_limit_on_path
 from wearsim.wear.problem import Rows, WearProblem
+from wearsim.wear.python_contact import PythonContact
 from wearsim.wear.trajectory import check_sawtooth, check_touch, no_sliding
 
 _CONFORMS = 1e-5
@@ -202,6 +203,8 @@ class _Solve:
         return float(law.running_in.running_cycles(np.array([time / law.coefficient]))[0])
 
     def _refuse(self, status: int) -> NoReturn:
+        if isinstance(self.problem.contact.kernel, PythonContact) and self.problem.contact.kernel.failed:
+            raise self.problem.contact.kernel.failed
         contact, (times, path) = self.problem.contact, self.chunks[-1]
         cycles = self._cycles_run(float(times[-1]))
         x, y, depth = self.state

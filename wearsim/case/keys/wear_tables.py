@@ -1,21 +1,33 @@
 """How it wears and when that ends: [wear], [material], [stop], [run] and [fatigue]."""
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, WithJsonSchema, create_model, field_validator
+from pydantic import BeforeValidator, Field, WithJsonSchema, WrapValidator, create_model, field_validator
 
 from wearsim.catalogue.catalogues import materials, wear_conditions, wear_laws
+from wearsim.catalogue.own_wear_laws import own_constant_faults, own_wear_laws
 from wearsim.contact.stop_limits import CHAIN_LIMITS, LimitKey
-from wearsim.input.table import Table, known, others_of
+from wearsim.input.table import Finite, Table, known, others_of
 from wearsim.input.units import Number, Positive, PositiveNumber
 from wearsim.quantities import quantities
 
-_KEYS = {name: entry.keys for name, entry in wear_laws().items() if entry.kind == "law"}
+
+def _law_keys() -> dict[str, tuple[str, ...]]:
+    """Keys of every law by its name, those of the program among them."""
+    return {name: entry.keys for name, entry in wear_laws().items() if entry.kind == "law"}
+
+
+def _known_law(value: Any, handler: Callable[[Any], Any]) -> Any:
+    return value if isinstance(value, str) and value in own_wear_laws() else handler(value)
+
+
+_KEYS = {name: keys for name, keys in _law_keys().items() if name not in own_wear_laws()}
 _TOGETHER = [entry.keys for entry in wear_laws().values() if entry.kind == "factor" and len(entry.keys) > 1]
 if TYPE_CHECKING:
     _LawName = str
 else:
-    _LawName = Literal[tuple(_KEYS)]
+    _LawName = Annotated[Literal[tuple(_KEYS)], WrapValidator(_known_law)]
 
 
 class _WearTable(Table):
@@ -25,6 +37,7 @@ class _WearTable(Table):
     condition: str | None = None
     specific_wear_rate_mm2_per_N: Positive | None = None
     coefficient: PositiveNumber | None = None
+    constants: dict[str, Finite] | None = None
     pressure_exponent: Annotated[PositiveNumber, Field(le=20.0)] | None = None
     hardness_MPa: Annotated[Positive, Field(ge=1e-3, le=1e6)] | None = None
     reference_speed_mm_per_s: Annotated[Positive, Field(ge=1e-6, le=1e9)] | None = None
@@ -44,11 +57,11 @@ class _WearTable(Table):
     @classmethod
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
         """Return the keys whose place a new value of a key takes."""
-        every = tuple(dict.fromkeys(key for keys in _KEYS.values() for key in keys))
+        every = tuple(dict.fromkeys([*(key for keys in _KEYS.values() for key in keys), "constants"]))
         if key == "condition":
             return ("law", *every)
         if key == "law":
-            return ("condition", *(other for other in every if other not in _KEYS.get(value, ())))
+            return ("condition", *(other for other in every if other not in _law_keys().get(value, ())))
         if key == "specific_wear_rate_mm2_per_N":
             return ("condition", "law", *(other for other in every if other != key))
         return ("condition", "specific_wear_rate_mm2_per_N") if key in every else ()
@@ -60,18 +73,20 @@ class _WearTable(Table):
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
-        wanted = _KEYS[self.law]
+        wanted = _law_keys()[self.law]
         every = dict.fromkeys(key for keys in _KEYS.values() for key in keys)
         given = [key for key in every if getattr(self, key) is not None]
         found = [
             (key, f"does not belong to law = {self.law!r}: remove it") for key in given if key not in wanted
         ]
-        if self.condition is None:
+        own = own_wear_laws().get(self.law)
+        found += own_constant_faults(own, self.constants or {})
+        if self.condition is None and own is None:
             alternative = " (or condition)" if self.law == "archard" else ""
             found += [
                 (key, f"law = {self.law!r} needs this key{alternative}") for key in wanted if key not in given
             ]
-        elif self.law != "archard":
+        elif self.condition is not None and self.law != "archard":
             message = f"a condition is one of law = 'archard': remove it or law = {self.law!r}"
             found.append(("condition", message))
         for pair in _TOGETHER:

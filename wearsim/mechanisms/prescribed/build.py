@@ -65,7 +65,7 @@ def prescribed_drive(
     table = read_prescribed(case.path(tables.mechanism.table_file), key, case.faults)
     if table is None:
         return None
-    if wear.constants.get("speed_exponent") and table.sliding_speed is None:
+    if wear.law == "drozdov" and wear.constants["speed_exponent"] and table.sliding_speed is None:
         case.faults.add(
             key, "the drozdov law needs the column sliding_speed_mm_per_s: add it or set speed_exponent 0"
         )

@@ -135,7 +135,9 @@ def calibrate(
         and those that a quantity needs; rows ``relubrication`` have a time only. Paths are relative to
         the file, else to the working directory.
     fit : sequence of str
-        Keys that are fitted too: ``wear.pressure_exponent``, ``mechanism.roller_slip_fraction``.
+        Keys that are fitted too: ``wear.pressure_exponent``, ``mechanism.roller_slip_fraction``, constants of
+        a wear law of your own (`wear_law`), such as ``wear.constants.m``, within their range or else 1/5 to 5
+        times their value.
     register : str
         How a measured profile may be moved: ``turn``, ``free`` or ``none``.
     cutoff : float

@@ -35,7 +35,7 @@ from wearsim.study.calibrate.least_squares import (
 from wearsim.study.calibrate.lubricated_time import LubricatedTime
 from wearsim.study.calibrate.measured_profiles import ProfileObservation, observation
 from wearsim.study.calibrate.observations import GoNoGoReading, Observation, PredictedState
-from wearsim.study.calibrate.parameters import JOINT, JOINT_SOURCE, FitParameters, shape_values
+from wearsim.study.calibrate.parameters import JOINT, JOINT_SOURCE, FitParameters, shape_ranges, shape_values
 from wearsim.study.calibrate.reading_checks import reading_faults
 from wearsim.study.calibrate.readings import PROFILE, Reading
 
@@ -85,6 +85,7 @@ class CaseFit:
             teeth=any(not reading.of_chain for reading in readings),
             chain=chain,
             shapes={key: shape_values(case)[key] for key in options.shapes},
+            ranges=shape_ranges(case),
             last=max((time.lubricated(one.hours) for one in readings if not one.of_chain), default=math.nan),
             time=time,
             ratio=1.0,

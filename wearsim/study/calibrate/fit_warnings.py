@@ -24,7 +24,7 @@ from wearsim.runner.scatter import coefficient_key
 from wearsim.study.calibrate.calibration import CalibrationOptions, FittedCoefficient, PartLife
 from wearsim.study.calibrate.least_squares import LeastSquaresFit
 from wearsim.study.calibrate.observations import Observation, PredictedState
-from wearsim.study.calibrate.parameters import EXPONENT, JOINT, SHAPES
+from wearsim.study.calibrate.parameters import EXPONENT, JOINT, shape_ranges
 from wearsim.study.calibrate.readings import PROFILE, Reading
 
 _TOGETHER = 0.95
@@ -113,7 +113,7 @@ def fit_warnings(
 
 def _outside_bands(case: Case, values: Sequence[FittedCoefficient]) -> Iterator[str]:
     """Give coefficients outside of their bands; that of the teeth goes with the values fitted besides."""
-    shaped = any(one.key in SHAPES for one in values)
+    shaped = any(one.key in shape_ranges(case) for one in values)
     parts = {JOINT: ("chain", JOINTS), **({} if shaped else {coefficient_key(case): ("sprocket", TEETH)})}
     for one in values:
         if one.key in parts:

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from wearsim.case.model import Case
+from wearsim.catalogue.own_wear_laws import own_wear_laws
 from wearsim.geometry.profile_points import Vector
 from wearsim.runner.design import value_at
 from wearsim.study.calibrate.history_interpolation import (
@@ -23,7 +24,7 @@ EXPONENT = "wear.pressure_exponent"
 SLIP = "mechanism.roller_slip_fraction"
 
 SHAPES = {EXPONENT: (0.2, 5.0), SLIP: (1e-3, 1.0)}
-"""Keys that can be fitted besides the coefficients, and their bounds."""
+"""Keys of any case that can be fitted besides the coefficients, and their bounds."""
 
 _WIDE = math.log(1e6)
 """Logarithm of the factor within which coefficients are searched."""
@@ -48,6 +49,7 @@ class FitParameters:
     teeth: bool  # whether the coefficients of the teeth and of the joints are fitted
     chain: bool  # whether the coefficients of the teeth and of the joints are fitted
     shapes: Mapping[str, float]  # keys that are fitted besides, with their values in the case
+    ranges: Mapping[str, tuple[float, float]]  # bounds of such keys
     last: float  # of the last reading of the teeth [lubricated h]; nan where there is none
     time: LubricatedTime
     # coefficient of the joints over that of the teeth in the runs, as a factor of that in the case
@@ -67,10 +69,8 @@ class FitParameters:
         return np.array(low), np.array(high)
 
     def _shape_bounds(self) -> list[tuple[float, float]]:
-        return [
-            (min(math.log(SHAPES[key][0] / value), 0.0), max(math.log(SHAPES[key][1] / value), 0.0))
-            for key, value in self.shapes.items()
-        ]
+        ends = [(value, *self.ranges[key]) for key, value in self.shapes.items()]
+        return [(min(math.log(low / at), 0.0), max(math.log(high / at), 0.0)) for at, low, high in ends]
 
     @property
     def start(self) -> Vector:
@@ -115,7 +115,15 @@ class FitParameters:
         return low, high
 
 
+def shape_ranges(case: Case) -> dict[str, tuple[float, float]]:
+    """Return the keys that can be fitted besides the coefficients, with their bounds."""
+    own = own_wear_laws().get(case.wear.law)
+    constants = own.constants if own is not None else {}
+    fitted = {f"wear.constants.{name}": one.fitted for name, one in constants.items()}
+    return {**SHAPES, **{key: bounds for key, bounds in fitted.items() if bounds is not None}}
+
+
 def shape_values(case: Case) -> dict[str, float]:
     """Return the values of the keys that can be fitted besides the coefficients."""
-    found = {key: value_at(case.inputs, key) for key in SHAPES}
+    found = {key: value_at(case.inputs, key) for key in shape_ranges(case)}
     return {key: float(value) for key, value in found.items() if value is not None}

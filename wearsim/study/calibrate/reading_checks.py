@@ -8,7 +8,7 @@ from wearsim.mechanisms.wrap.drive import instead_of
 from wearsim.readings.chain_readings import LENGTH
 from wearsim.readings.contradictions import ambiguous_reading
 from wearsim.study.calibrate.calibration import CalibrationOptions
-from wearsim.study.calibrate.parameters import BEYOND, EXPONENT, SHAPES, shape_values
+from wearsim.study.calibrate.parameters import BEYOND, EXPONENT, shape_ranges, shape_values
 from wearsim.study.calibrate.predicted_history import PredictedHistory
 from wearsim.study.calibrate.readings import DEEPEST, OVER_PINS, POINT, PROFILE, SIZE, Reading
 
@@ -25,8 +25,8 @@ def check_readings(case: Case, readings: Sequence[Reading], options: Calibration
         if key == EXPONENT and case.wear.law == "archard":
             text = "law = 'archard' has the exponent 1: set law = 'power' to fit it"
             faults.append(Fault(text, key, "--fit"))
-        elif key not in SHAPES:
-            text = f"must be one of {', '.join(SHAPES)}: coefficients are fitted anyway"
+        elif key not in shape_ranges(case):
+            text = f"must be one of {', '.join(shape_ranges(case))}: coefficients are fitted anyway"
             faults.append(Fault(text, key, "--fit"))
         elif key not in shape_values(case):
             faults.append(Fault("must be a key of the case", key, "--fit"))
