@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.colors import to_rgba
 
 import wearsim
 from tests import drives
@@ -85,6 +86,46 @@ def test_curves_and_axes_of_a_sweep_are_named_as_people_write():
     assert panel.get_ylim()[1] > 9000.0
     heat = sweep_of(GRID, "sprocket.teeth", "load.tension_N")["heat_map"].axes[0]
     assert (heat.get_xlabel(), heat.get_ylabel()) == ("teeth", "tension, N")
+
+
+def rates_of(tensions):
+    """Lives over wear rates that are a decade apart, which they divide."""
+    rows = [(1e-11 * 10.0**power, tension) for power in range(4) for tension in tensions]
+    table = pd.DataFrame(rows, columns=["wear.specific_wear_rate_mm2_per_N", "load.tension_N"])
+    table["life_hours"] = 1e-3 / table["wear.specific_wear_rate_mm2_per_N"] / table["load.tension_N"]
+    return sweep_of(table, *table.columns[:2])
+
+
+def test_values_spaced_by_a_factor_have_axes_of_logarithms_and_raised_exponents():
+    (panel, *_) = rates_of([7000.0, 4000.0])["curves"].axes
+    assert (panel.get_xscale(), panel.get_yscale()) == ("log", "log")
+    assert panel.get_xlabel() == "specific wear rate, mm\u00b2/N"
+    labels = [tick.get_text() for tick in panel.get_xticklabels()]
+    assert labels == [f"10\u207b{digits}" for digits in ("\u00b9\u00b9", "\u00b9\u2070", "\u2079", "\u2078")]
+    (steps, *_) = sweep_of(GRID, "sprocket.teeth", "load.tension_N")["curves"].axes
+    assert (steps.get_xscale(), steps.get_yscale()) == ("linear", "linear")
+
+
+def test_scales_of_parallel_coordinates_are_logarithms_too():
+    (panel, *_) = rates_of([7000.0, 4000.0])["parallel"].axes
+    heights = sorted(
+        {round(float(line.get_ydata()[0]), 6) for line in panel.get_lines() if len(line.get_xdata()) == 3}
+    )
+    np.testing.assert_allclose(heights, [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0], atol=1e-6)
+
+
+def test_colours_of_curves_go_with_a_number_and_tell_words_apart():
+    (panel, *_) = rates_of([7000.0, 4000.0, 5000.0])["curves"].axes
+    lines = [line for line in panel.get_lines() if len(line.get_xdata()) > 1]
+    assert [line.get_label() for line in lines] == [f"tension {n} 000 N" for n in (4, 5, 7)]
+    light = [
+        0.2126 * red + 0.7152 * green + 0.0722 * blue
+        for red, green, blue, _ in map(to_rgba, [line.get_color() for line in lines])
+    ]
+    assert light == sorted(light)
+    words = GRID.assign(**{"wear.condition": ["oiled", "dry", "oiled", "dry"]}).drop(columns="load.tension_N")
+    (panel, *_) = sweep_of(words, "sprocket.teeth", "wear.condition")["curves"].axes
+    assert [line.get_color() for line in panel.get_lines() if len(line.get_xdata()) > 1] == ["C0", "C1"]
 
 
 @pytest.mark.parametrize("count", [3, 60])

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -10,14 +11,26 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
 
 from wearsim.quantities import grouped
 from wearsim.report.figures import number_ticks
-from wearsim.report.key_words import axis_label, with_value
-from wearsim.report.parallel_scales import LEAST_APART, is_numeric, is_whole, name_scales, scaled_heights
+from wearsim.report.key_words import axis_label, number_words, with_value
+from wearsim.report.parallel_scales import (
+    LEAST_APART,
+    is_by_factor,
+    is_numeric,
+    is_whole,
+    name_scales,
+    scaled_heights,
+)
 from wearsim.report.text_lines import literal
 from wearsim.study.sweep.model import Sweep
+
+_LIGHTEST = 0.9
+"""Place in the colours of the lightest curve, which is to be seen on white."""
+
+_DECADE = 10.0
 
 _MAX_CURVES = 10
 _MAX_LINES = 2000
@@ -48,13 +61,13 @@ def _hours(table: pd.DataFrame) -> "pd.Series[float]":
 def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
     figure = Figure(figsize=(7.0, 4.6), layout="constrained")
     panel = figure.subplots()
-    groups = table.groupby(list(others), sort=False) if others else [((), table)]
-    for number, (values, group) in enumerate(groups):
+    in_order = len(others) == 1 and is_numeric(table[others[0]])
+    groups = list(table.groupby(list(others), sort=in_order)) if others else [((), table)]
+    for colour, (values, group) in zip(_colours(len(groups), in_order), groups, strict=True):
         group = group[group["error"] == ""].sort_values(key)
         shown = ", ".join(
             with_value(other, value, others) for other, value in zip(others, values, strict=True)
         )
-        colour = f"C{number}"
         panel.plot(
             group[key], group["life_hours"], "-o", color=colour, markersize=4, label=literal(shown) or None
         )
@@ -64,16 +77,39 @@ def _curves(table: pd.DataFrame, key: str, others: Sequence[str]) -> Figure:
         panel.plot([], [], "^", color="0.4", mfc="white", label="> : limit not reached")
     panel.set_xlabel(axis_label(key))
     panel.set_ylabel("life, h")
-    panel.set_ylim(0.0, 1.1 * panel.dataLim.y1)
-    ticks = np.unique(table[key].to_numpy(float))
-    if np.diff(ticks).min(initial=math.inf) > LEAST_APART * np.ptp(ticks):
-        panel.set_xticks(ticks, [grouped(float(value)) for value in ticks])
-    else:
-        panel.xaxis.set_major_locator(MaxNLocator(integer=is_whole(table[key])))
+    _scale_axes(panel, table, key)
     panel.grid(alpha=0.3)
     if panel.get_legend_handles_labels()[0]:
         panel.legend(frameon=False, fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return figure
+
+
+def _colours(count: int, in_order: bool) -> list[Any]:
+    """Return colours of curves: from dark to light where they have an order, else as different as can be."""
+    if not in_order:
+        return [f"C{number}" for number in range(count)]
+    return list(mpl.colormaps["viridis"](np.linspace(0.0, _LIGHTEST, count)))
+
+
+def _scale_axes(panel: Axes, table: pd.DataFrame, key: str) -> None:
+    """Scale both axes: by logarithms where values are spaced by a factor, and then lives span a decade."""
+    own = np.unique(table[key].to_numpy(float))
+    by_factor = is_by_factor(own)
+    places = np.log(own) if by_factor else own
+    if by_factor:
+        panel.set_xscale("log")
+        panel.xaxis.set_minor_locator(NullLocator())
+    if by_factor and panel.dataLim.y0 > 0.0 and panel.dataLim.y1 > _DECADE * panel.dataLim.y0:
+        panel.set_yscale("log")
+        number_ticks(panel.yaxis)
+    else:
+        panel.set_ylim(0.0, 1.1 * panel.dataLim.y1)
+    if np.diff(places).min(initial=math.inf) > LEAST_APART * np.ptp(places):
+        panel.set_xticks(own, [number_words(value) for value in own.tolist()])
+    elif by_factor:
+        panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: number_words(value)))
+    else:
+        panel.xaxis.set_major_locator(MaxNLocator(integer=is_whole(table[key])))
 
 
 def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
@@ -85,7 +121,7 @@ def _heat_map(table: pd.DataFrame, across: str, up: str) -> Figure:
     cells = hours.to_numpy(float)
     image = panel.pcolormesh(np.ma.masked_invalid(cells), norm=norm, cmap="viridis")
     for place, axis in ((hours.columns, panel.xaxis), (hours.index, panel.yaxis)):
-        axis.set_ticks(np.arange(len(place)) + 0.5, [grouped(float(value)) for value in place])
+        axis.set_ticks(np.arange(len(place)) + 0.5, [number_words(float(value)) for value in place])
     if cells.size <= _MAX_NUMBERS:
         for (row, column), value in np.ndenumerate(cells):
             dark = value < np.sqrt(_least(table) * _hours(table).max())
