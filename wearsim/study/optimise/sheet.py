@@ -9,8 +9,10 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column, plain
+from wearsim.report.chain_first import is_of_form
 from wearsim.report.study_files import save_figures, save_files
 from wearsim.report.text_lines import closing_lists, counts_by_kind
+from wearsim.result.ends import CHAIN
 from wearsim.runner.store import DESIGN_MARK, DESIGNS
 from wearsim.study.optimise.design_files import save_designs
 from wearsim.study.optimise.model import OptimiseStudy
@@ -92,6 +94,13 @@ def optimise_warnings(outcome: OptimiseOutcome) -> tuple[str, ...]:
         found.append(
             "lives beyond run.horizon_hours count as lives up to it, and which of them is longest is not "
             "known: raise it"
+        )
+    by_chain = [one.number for one in outcome.front if one.stop in ("elongation_percent", CHAIN)]
+    if by_chain and "life_hours" in study.objectives and any(map(is_of_form, study.space.keys)):
+        found.append(
+            f"the chain ends first in {len(by_chain)} of {len(outcome.front)} best designs: their lives are "
+            "those of the chain, and rank tooth forms by how they wear it, not by their own wear (wearsim "
+            "compare gives the lives of the teeth)"
         )
     if not outcome.unchanged.feasible:
         why = "fails" if outcome.unchanged.error else "breaks limits"
