@@ -39,10 +39,10 @@ def simulate(
     Parameters
     ----------
     case : Case, DriveCase, path or mapping
-        One sprocket, a gear pair or a whole drive; which of them a file is, only its answer tells.
+        One sprocket, a gear pair or a whole drive: a loaded case, the path of its file, the name of a shipped
+        case, or its tables.
     progress : callable, optional
-        Told by a wrap or a run cycle by cycle how much of it is done, from 0 to 1, by a drive how much of
-        all; it only rises.
+        Called with the fraction done, from 0 to 1, which never falls. Short runs do not call it.
 
     Returns
     -------
