@@ -11,21 +11,6 @@ _LONGEST, _TITLE = 200, 90
 _STYLE = "text-align: left; vertical-align: top"
 
 
-def show_after_semicolon(picture: Any) -> None:
-    """Have a notebook show a picture at the end of its cell where a trailing semicolon keeps it from that."""
-    ipython: Any = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython is not None else None
-    if shell is None:
-        return
-
-    def show(*result: Any) -> None:
-        shell.events.unregister("post_run_cell", show)
-        if shell.displayhook.quiet():
-            ipython.display.display(picture)
-
-    shell.events.register("post_run_cell", show)
-
-
 def one_line(kind: str, title: str, *texts: str) -> str:
     """Return an object in one line, cut where it is long.
 
