@@ -106,7 +106,14 @@ def test_every_field_has_a_label_of_its_own_in_plain_words(data):
         labels = [label(field.name) for field in fields]
         assert len({*labels}) == len(labels), labels
         for words in labels:
-            assert words[0].isupper() and "_" not in words
+            assert words[0].isupper() and "_" not in words.replace("K_e", "")
+
+
+def test_tables_have_plain_titles():
+    titles = {name: table_title({}, name) for name in form_fields({})}
+    assert titles["optimise.limits.peak_pressure_MPa"] == "Optimisation limit: peak pressure (MPa)"
+    assert titles["mechanism"] == "Contact model" and titles["duty[]"] == "Load block: add one"
+    assert not [title for title in titles.values() if "_" in title or ", " in title]
 
 
 def test_conditions_of_wear_and_of_use_have_words():

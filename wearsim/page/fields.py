@@ -9,6 +9,7 @@ from pydantic.fields import FieldInfo
 from wearsim.case.keys import Table
 from wearsim.catalogue.catalogues import catalogue_rows, chains, environments, lubricants, wear_conditions
 from wearsim.input.keys import is_dict, parts, schema_fields, schema_of, tables_in, words
+from wearsim.page.field_words import table_label
 from wearsim.quantities import input_quantities
 
 
@@ -81,11 +82,9 @@ def table_title(data: Mapping[str, Any], name: str) -> str:
     >>> table_title(wheels, "sprocket.1"), table_title(wheels, "sprocket.2.cog.1")
     ('Sprocket 1: motor', 'Cog 1: 11 teeth')
     >>> table_title(wheels, "sprocket.2.take_up"), table_title(wheels, "duty[]")
-    ('Take up', 'Duty: add one')
+    ('Take-up', 'Load block: add one')
     """
-    parts_of = _named_parts(name)
-    shown = parts_of[-1:] if owner(name) else parts_of
-    words = ", ".join(shown).replace("_", " ").capitalize()
+    words = table_label(".".join(_named_parts(name)))
     number = name.rpartition(".")[2]
     if name.endswith("[]"):
         return f"{words}: add one"
@@ -158,7 +157,7 @@ def _field(key: str, info: FieldInfo) -> Field:
         unit=quantity.unit,
         meaning=quantity.meaning,
         choices=one_word,
-        proposals=_proposals(key),
+        proposals=catalogue_words(key),
         is_text=(str in kinds and not is_dict(info.annotation)) or (bool(one_word) and bool not in kinds),
         required=info.is_required(),
         default="" if default in (None, "") else _word(default),
@@ -183,9 +182,10 @@ def _places(key: str, data: Mapping[str, Any]) -> Iterator[str]:
     yield f"{head}[]"
 
 
-def _proposals(key: str) -> tuple[str, ...]:
+def catalogue_words(key: str) -> tuple[str, ...]:
+    """Return the words of a catalogue that a key may hold."""
     if key == "chain.designation":
-        return tuple(chains())
+        return tuple(dict.fromkeys(chain.designation for chain in chains().values()))
     if key.endswith(("wear.condition", "joint.condition")):
         return tuple(wear_conditions())
     if key.endswith(".lubricant"):

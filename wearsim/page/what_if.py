@@ -113,7 +113,7 @@ def _show_amount(amount: ui.label, knob: Knob, unit: str, event: Any) -> None:
 def _teeth(data: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     sprockets = data.get("sprocket")
     if not isinstance(sprockets, list):
-        yield "sprocket.teeth", label("teeth")
+        yield "sprocket.teeth", "Teeth"
         return
     for number, sprocket in enumerate(sprockets[:_MOST_SPROCKETS], start=1):
         named = sprocket.get("name") if isinstance(sprocket, Mapping) else None
