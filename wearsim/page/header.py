@@ -26,9 +26,13 @@ class Header:
                 ui.label("wearsim").classes("ws-brand").props("role=heading aria-level=1")
                 self._name = ui.label().classes("ws-name")
                 self._dirty = ui.label("not saved").classes("ws-dirty")
+            self._places = ui.element("nav").classes("ws-places").props('aria-label="On this page"')
             with ui.element("div").classes("ws-now").props("role=status aria-live=polite"):
                 self._hours = ui.label().classes("ws-now-hours")
-                self._state = ui.label().classes("ws-state")
+                with ui.element("div").classes("ws-state") as self._state:
+                    self._words = ui.label()
+                    # Not said by a screen reader at every percent.
+                    self._percent = ui.label().props("aria-hidden=true")
             with ui.element("div").classes("ws-buttons").props('role=group aria-label="Actions"'):
                 self._buttons = {action.name: _button(action) for action in actions}
 
@@ -36,6 +40,11 @@ class Header:
         """Show which file is edited."""
         self._name.text = name
         self._dirty.set_visibility(dirty)
+
+    def link(self, name: str, place: ui.element) -> None:
+        """Add a link to a part of the page, for screens on which the parts stand one below the other."""
+        with self._places:
+            ui.link(name, place)
 
     def enable(self, name: str, can_run: bool) -> None:
         """Let a button be pressed, or not."""
@@ -47,14 +56,13 @@ class Header:
 
     def show_state(self, state: str, text: str) -> None:
         """Show how the life belongs to the present input."""
-        self._state.text = text
+        self._words.text, self._percent.text = text, ""
         self._hours.props["data-state"] = state
         self._state.props["data-state"] = state
 
     def show_progress(self, percent: int) -> None:
         """Show how far the calculation is."""
-        lead = self._state.text.partition(" (")[0]
-        self._state.text = f"{lead} ({percent} %)"
+        self._percent.text = f"({percent} %)"
 
 
 def _button(action: Action) -> Any:
