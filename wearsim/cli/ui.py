@@ -64,10 +64,10 @@ class _Opened:
     def __call__(self) -> "tuple[CaseFile, str]":
         from wearsim.drive.drive_start import start_text
         from wearsim.input.document import STDIN, text_of
-        from wearsim.page.case_file import NEW, example, new_file, read_file
+        from wearsim.page.case_file import FIRST, NEW, example, new_file, read_file
 
         if self._path is None:
-            file, text = new_file(NEW), start_text({})
+            file, text = new_file(NEW), start_text(FIRST)
         elif self._path == STDIN:
             text = text_of(STDIN)
             file = new_file(NEW, text)
