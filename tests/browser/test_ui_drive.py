@@ -96,6 +96,7 @@ def test_a_drive_shows_what_the_command_prints_and_follows_an_edit(watched, serv
 def test_faults_and_new_tables_of_a_sprocket(watched, serve):
     page = opened(watched, serve(DRIVE))
     field(page, "sprocket.2.teeth").fill("3")
+    field(page, "sprocket.2.teeth").blur()
     page.wait_for_selector('.ws-state[data-state="old"]')
     message = page.locator(".ws-fault").inner_text()
     assert re.search(r"drive\.toml:12: sprocket\.2\.teeth: must be a whole number .* \(got 3\)", message)
@@ -142,6 +143,7 @@ def test_a_new_drive_is_that_of_wearsim_init(watched, serve, tmp_path):
     }
     for name, value in known.items():
         watched.locator(f'[data-known="{name}"]').fill(value)
+        watched.keyboard.press("Tab")
     watched.locator('[data-known="shock"]').click()
     watched.get_by_role("option", name="moderate").click()
     watched.get_by_role("button", name="Create").click()

@@ -114,6 +114,10 @@ def test_a_bad_value_says_what_the_command_line_says(watched, serve, tmp_path):
     good = shown_hours(page)
     bad = STRAND.replace("power_kW = 3 ", "power_kW = -3 ")
     field(page, "load.power_kW").fill("-3")
+    page.wait_for_selector('.ws-state[data-state="incomplete"]')
+    assert page.locator(".ws-fault").count() == 0 and page.locator(".q-field--error").count() == 0
+    assert shown_hours(page) == good
+    field(page, "load.power_kW").blur()
     page.wait_for_selector('.ws-state[data-state="old"]')
     server.path.write_text(bad)
     done = subprocess.run([*COMMAND, "check", server.path], capture_output=True, text=True)
@@ -139,9 +143,13 @@ def test_source_that_is_no_toml_keeps_the_answer_as_an_old_one(watched, serve):
     page.locator(".cm-content").click()
     page.keyboard.press("Control+End")
     page.keyboard.type("broken")
+    page.wait_for_selector('.ws-state[data-state="incomplete"]')
+    page.locator(".cm-content").blur()
     page.wait_for_selector('.ws-state[data-state="old"]')
     assert "not valid TOML" in page.locator(".ws-fault").inner_text()
     assert shown_hours(page) == good
+    page.locator(".cm-content").focus()
+    page.keyboard.press("Control+End")
     for _ in "broken":
         page.keyboard.press("Backspace")
     settled(page)
@@ -239,6 +247,24 @@ def test_exported_wheel_is_that_of_the_command(watched, serve, tmp_path, form, s
     assert undated(download.value.path().read_bytes()) == undated(out.read_bytes())
 
 
+def undated_sheet(text):
+    return re.sub(r"\d{4}-\d{2}-\d{2}", "", text)
+
+
+@pytest.mark.parametrize("text", [STRAND, "packaging-conveyor"], ids=["strand", "drive"])
+def test_sheet_is_that_of_the_command(watched, serve, tmp_path, text):
+    server = serve(STRAND) if text == STRAND else serve(None, text)
+    page = opened(watched, server)
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Sheet", exact=True).click()
+    case, out = (server.path, tmp_path / "out") if text == STRAND else (text, tmp_path / "out.html")
+    assert download.value.suggested_filename == ("drive.html" if text == STRAND else f"{text}.html")
+    single = ["--single-file"] if text == STRAND else []
+    subprocess.run([*COMMAND, "report", case, "--out", out, *single], check=True)
+    written = out / "index.html" if text == STRAND else out
+    assert undated_sheet(download.value.path().read_text()) == undated_sheet(written.read_text())
+
+
 def test_a_hostile_title_stays_text(watched, serve):
     text = STRAND.replace('"Test drive"', json.dumps(HOSTILE + "</script><img src=x onerror=alert(1)>"))
     server = serve(text, name="a'b<i>.toml")
@@ -250,6 +276,7 @@ def test_a_hostile_title_stays_text(watched, serve):
     field(page, "title").fill("<img src=x onerror=alert(2)>")
     eventually(title.inner_text, lambda found: found == "<img src=x onerror=alert(2)>")
     field(page, "chain.designation").fill("<img src=x onerror=alert(3)>")
+    page.keyboard.press("Enter")
     page.wait_for_selector('.ws-state[data-state="old"]')
     assert "<img" in page.locator(".ws-fault").inner_text()
     assert page.locator("main img").count() == 0
@@ -299,7 +326,7 @@ def test_a_table_of_the_duty_is_added_filled_and_removed(watched, serve):
     text = text.replace("[load]\n", "") + "[[duty]]\nspeed_rpm = 100\npower_kW = 3\nshare_of_time = 1\n"
     server = serve(text)
     page = opened(watched, server)
-    page.get_by_text("Duty: add one", exact=True).click()
+    page.get_by_text("Load block: add one", exact=True).click()
     page.wait_for_timeout(400)  # opens slowly
     page.get_by_role("button", name="Add a table [[duty]]").click()
     page.wait_for_selector('.ws-state[data-state="old"]')

@@ -166,6 +166,56 @@ def test_first_field_is_the_title_and_labels_are_words_with_the_key_beneath(watc
     eventually(lambda: 'condition = "hardened, dry"' in source(page), bool)
 
 
+def test_a_chain_is_chosen_from_a_list_and_half_of_its_name_is_no_fault(watched, serve):
+    page = opened(watched, serve(STRAND))
+    before, chain = shown_hours(page), field(page, "chain.designation")
+    chain.click()
+    eventually(page.get_by_role("option").count, lambda found: found > 20)
+    page.keyboard.press("Control+A")
+    page.keyboard.type("10")
+    page.get_by_role("option", name="10B-1: 15.875 mm pitch").wait_for()
+    page.wait_for_timeout(500)
+    assert page.locator(".ws-state").inner_text() == "up to date" and shown_hours(page) == before
+    page.keyboard.type("B-1")
+    eventually(page.get_by_role("option").count, lambda found: found == 1)
+    page.wait_for_timeout(300)  # the list opens again where a key was pressed while it was searched
+    page.keyboard.press("Enter")
+    page.wait_for_selector(".q-menu", state="detached")
+    eventually(lambda: 'designation = "10B-1"' in source(page), bool)
+    chain.click()
+    page.keyboard.press("Control+A")
+    page.keyboard.type("ANSI 60")
+    page.get_by_role("option", name="12A-1 (ANSI 60)").click()
+    page.wait_for_selector(".q-menu", state="detached")
+    eventually(lambda: 'designation = "12A-1"' in source(page), bool)
+    settled(page)
+    chain.click()
+    page.keyboard.press("Control+A")
+    page.keyboard.type("12B-1")
+    page.locator(".ws-answer").click(position={"x": 5, "y": 5})
+    eventually(lambda: 'designation = "12B-1"' in source(page), bool)
+    assert watched.said == []
+
+
+def test_a_telephone_shows_the_answer_first_and_links_to_the_input(watched, serve):
+    watched.set_viewport_size({"width": 390, "height": 844})
+    page = opened(watched, serve(STRAND))
+    tops = {name: page.locator(name) for name in (".ws-header", ".ws-hours", ".ws-what-if")}
+
+    def top(name):
+        return tops[name].bounding_box()["y"]
+
+    assert top(".ws-hours") < 300 and top(".ws-what-if") > 844
+    page.get_by_role("link", name="Input").click()
+    head = tops[".ws-header"].bounding_box()["height"]
+    eventually(lambda: top(".ws-what-if"), lambda found: head - 2 <= found < head + 20)
+    page.get_by_role("link", name="Answer").click()
+    eventually(lambda: top(".ws-hours"), lambda found: head < found < 300)
+    watched.set_viewport_size({"width": 1440, "height": 900})
+    assert page.get_by_role("link", name="Input").count() == 0
+    assert top(".ws-what-if") < 150 and top(".ws-hours") < 200
+
+
 def test_progress_only_rises(watched, serve):
     page = opened(watched, serve(WRAP.replace("phases = 2", "phases = 8").replace("100\nl", "20000\nl")))
     page.evaluate(

@@ -9,8 +9,14 @@ from pathlib import Path
 import pytest
 
 from wearsim.cli.ui import _Opened
-from wearsim.input.document import stdin_bytes
+from wearsim.drive.life import drive_life
+from wearsim.drive.load_case import load_drive
+from wearsim.drive.simulate import simulate
+from wearsim.input.document import CaseText, stdin_bytes
 from wearsim.page import request_guard as listener
+from wearsim.page.answers import answer_to
+from wearsim.page.case_file import read_file
+from wearsim.page.edited_input import EditedInput
 
 FOUND = importlib.util.find_spec("click")
 
@@ -85,3 +91,25 @@ def test_a_page_begins_with_what_is_typed_or_with_a_shipped_case(monkeypatch):
     file, text = _Opened(Path("16b-20t-oiled"), ())()
     assert (file.path, file.content) == (Path("16b-20t-oiled.toml"), None)
     assert 'designation = "16B-1"' in text
+
+
+def test_the_first_drive_is_within_its_ratings_and_needs_no_warning():
+    """On coarse flanks, as neither depends on them."""
+    file, text = _Opened(None, ())()
+    coarse = ["mechanism.phases=2", "run.life_tolerance=0.1", "sprocket.1.nodes=51", "sprocket.2.nodes=51"]
+    found = drive_life(load_drive(CaseText(file.path, text), coarse))
+    assert found.overloaded == () and found.doubts == () and found.reference.ratings
+    assert all(rating.ok for rating in found.reference.ratings)
+
+
+@pytest.mark.parametrize("kind", ["drive", "sprocket"])
+def test_sheet_is_the_file_of_the_report_command(cli, drive, two_sprockets, tmp_path, kind):
+    path, out = drive(), tmp_path / "out"
+    arguments = ["--single-file"] if kind == "sprocket" else []
+    if kind == "drive":
+        path.write_text(two_sprockets)
+    edited = EditedInput(CaseText(path, path.read_text()), read_file(path), lambda: False, print)
+    answer = answer_to(edited)
+    sheet = answer.sheet(simulate(answer.drive if kind == "drive" else answer.case))
+    assert cli("report", path, "--out", out, *arguments).code == 0
+    assert sheet == (out / "index.html").read_text(encoding="utf-8")

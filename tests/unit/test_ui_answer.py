@@ -8,8 +8,9 @@ from nicegui import Client, ui
 from nicegui.page import page
 
 import wearsim
+from wearsim.chain.rating_findings import RatingFinding
 from wearsim.input.document import CaseText
-from wearsim.page.answer_panel import AnswerPanel
+from wearsim.page.answer_panel import AnswerPanel, rating_list
 from wearsim.page.answers import SprocketAnswer
 
 WRAP = {
@@ -38,3 +39,13 @@ def test_overload_stands_below_the_hours(power, words):
         headline, below = told
         assert headline == "> 20 h (overloaded)" and below.startswith(words)
         assert texts.index(headline) < texts.index(below) < texts.index("as given")
+
+
+def test_the_elongation_that_ends_the_life_is_no_rating():
+    """It always uses all of its limit, and is neither near nor outside it."""
+    elongation = RatingFinding("elongation at the end", 3.0, 3.0, "%", "3 %")
+    with Client(page("/ratings")) as client:
+        rating_list([RatingFinding("plate fatigue", 4.4, 4.6, "kW", "ANSI B29.1"), elongation])
+        texts = [one.text for one in client.elements.values() if isinstance(one, ui.label)]
+    assert texts[-4:-2] == ["4.4 ≤ 4.6 kW (96 %)", "near"]
+    assert texts[-2:] == ["elongation at the end", "3 ≤ 3 %; it defines the life and is no rating"]

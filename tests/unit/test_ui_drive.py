@@ -56,7 +56,7 @@ def test_the_shares_of_a_duty_block_are_one_field():
     text = "sprocket = [{}]\n[[duty]]\npower_share = {pump = 0.7, fan = 0.3}\n"
     typed = []
     with Client(page("/form")) as client:
-        form = FormPanel(lambda field, value: typed.append((field, value)), print, print)
+        form = FormPanel(lambda field, value: typed.append((field, value)), print, print, print)
         form.show(parsed_tables(text), shown_values(text), "")
         (shares,) = [one for one in client.elements.values() if one.props.get("data-key") == SHARES]
         assert shares.value == "{pump = 0.7, fan = 0.3}"

@@ -73,12 +73,12 @@ def test_what_was_changed_since_the_pinned_run():
     [(8.9, False, "within"), (9.0, False, "near"), (10.1, False, "outside"), (9.0, True, "outside")],
 )
 def test_lights_of_ratings(value, at_least, word):
-    one = RatingFinding("power", value, 10.0, "kW", "a rule", at_least=at_least)
+    one = RatingFinding("plate fatigue", value, 10.0, "kW", "a rule", at_least=at_least)
     assert light(one) == word
     with Client(page("/ratings")) as client:
         rating_list([one])
         shown = [found.text for found in client.elements.values() if isinstance(found, ui.label)]
-    assert word in shown and "power" in shown
+    assert word in shown and "plate fatigue" in shown
 
 
 def test_sliders_are_of_plain_numbers_only():

@@ -6,9 +6,17 @@ from typing import Any
 from markupsafe import Markup
 from nicegui import ui
 
-from wearsim.case.model import Case
-from wearsim.chain.rating_findings import RatingFinding
-from wearsim.page.answers import DriveAnswer, FirstLooks, Pictures, Rows, SprocketAnswer, Words, answer_to
+from wearsim.chain.rating_findings import RATINGS, RatingFinding
+from wearsim.page.answers import (
+    Answered,
+    DriveAnswer,
+    FirstLooks,
+    Pictures,
+    Rows,
+    SprocketAnswer,
+    Words,
+    answer_to,
+)
 from wearsim.page.chart_colours import Palette
 from wearsim.page.chart_view import ChartView, Drawing
 from wearsim.page.edited_input import EditedInput
@@ -24,7 +32,7 @@ from wearsim.page.text_elements import (
 from wearsim.quantities import grouped
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin
-from wearsim.result import Life, LowerBound, WearResult
+from wearsim.result import Life, LowerBound
 
 
 class AnswerPanel:
@@ -189,15 +197,17 @@ _NEAR = 0.9
 
 
 def light(one: RatingFinding) -> str:
-    """Return whether a rating is within, near or outside its limit.
+    """Return whether a rating is within, near or outside its limit; empty for one that is no rating.
 
     Examples
     --------
-    >>> light(RatingFinding("power", 4.3, 4.6, "kW", "ISO 10823"))
+    >>> light(RatingFinding("plate fatigue", 4.3, 4.6, "kW", "ISO 10823"))
     'near'
     """
     if not one.ok:
         return "outside"
+    if one.name not in RATINGS:
+        return ""
     return "near" if one.used >= _NEAR else "within"
 
 
@@ -209,8 +219,11 @@ def rating_list(ratings: Iterable[RatingFinding]) -> None:
             text_element("dt", one.name)
             sign = "≥" if one.at_least else "≤"
             text = f"{grouped(one.value)} {sign} {grouped(one.limit)} {one.unit}".rstrip()
-            with used_part(one.name, one.used, text):
-                ui.label(light(one)).classes("ws-light").props(f"data-light={light(one)}")
+            if word := light(one):
+                with used_part(one.name, one.used, text):
+                    ui.label(word).classes("ws-light").props(f"data-light={word}")
+            else:
+                text_element("dd", f"{text}; it defines the life and is no rating")
 
 
 class AnswerFinder:
@@ -223,8 +236,8 @@ class AnswerFinder:
         self.panel = AnswerPanel(palette)
         self.lives: Mapping[str, Life | LowerBound] = {}
 
-    async def find(self, edited: EditedInput) -> dict[str, tuple[Case, WearResult]]:
-        """Return case and result of every sprocket."""
+    async def find(self, edited: EditedInput) -> Answered:
+        """Show the answer to an input; return what can be saved of it."""
         answer = await edited.step(lambda: answer_to(edited))
         if answer.is_slow:
             await self._show_first(edited, answer)
@@ -240,9 +253,7 @@ class AnswerFinder:
             self._header.show_life(f"about {answer.headline(rough)}")
             self._header.show_state("estimate", "first estimate, computing")
 
-    async def _show_all(
-        self, edited: EditedInput, answer: SprocketAnswer | DriveAnswer
-    ) -> dict[str, tuple[Case, WearResult]]:
+    async def _show_all(self, edited: EditedInput, answer: SprocketAnswer | DriveAnswer) -> Answered:
         edited.check()
         result: Any = await edited.step(lambda: answer.life(edited.watch))
         words = await edited.step(lambda: answer.words(result))
@@ -255,4 +266,4 @@ class AnswerFinder:
             self.panel.show_first(FirstLooks())
         self.panel.show_pictures(await edited.step(lambda: answer.pictures(result)))
         self._header.show_state("current", "up to date")
-        return answer.runs(result)
+        return Answered(answer.runs(result), lambda: answer.sheet(result))

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from datetime import date
 from typing import Any
 
 from markupsafe import Markup
@@ -15,6 +16,7 @@ from wearsim.drive.load_case import load_case, load_drive, load_single
 from wearsim.drive.maintenance import drive_plan
 from wearsim.drive.part_life import simulate
 from wearsim.errors import CaseError, Fault, WearsimError
+from wearsim.files import file_names
 from wearsim.input.document import CaseText
 from wearsim.page.case_file import CaseFile
 from wearsim.page.edited_input import EditedInput, edited_title
@@ -30,8 +32,11 @@ from wearsim.report.drive.drive_words import (
     worn_most_text,
 )
 from wearsim.report.drive.page_tables import wheel_of
+from wearsim.report.drive.report_page import SheetHead, sheet_html
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin, margins
+from wearsim.report.html.page_content import case_page
+from wearsim.report.html.page_writer import render
 from wearsim.report.html.run_charts import along_chart, history_chart, tooth_load_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts, worn_out_chart
@@ -85,6 +90,14 @@ class Pictures:
     bars: Markup | None = None  # lives of all parts over time
     margins: Sequence[Margin] = ()  # how near every limit is
     charts: Sequence[Chart] = ()  # depth, pressure and sliding along the flank, and wear over time
+
+
+@dataclass(frozen=True, eq=False)
+class Answered:
+    """What can be saved of an answer."""
+
+    runs: Mapping[str, tuple[Case, WearResult]]  # case and result of every sprocket
+    sheet: Callable[[], str]  # makes the page of ``wearsim report``
 
 
 def error_faults(error: WearsimError) -> tuple[Fault, ...]:
@@ -155,6 +168,11 @@ class SprocketAnswer:
     def runs(self, result: WearResult) -> dict[str, tuple[Case, WearResult]]:
         """Return case and result of the only wheel."""
         return {self.case.name: (self.case, result)}
+
+    def sheet(self, result: WearResult) -> str:
+        """Return the page of ``wearsim report --single-file``."""
+        page = case_page(result, file_names([result.case])[0], brief=False)
+        return render("case.html.j2", page, single_file=True, several=False)
 
     def words(self, result: WearResult) -> Words:
         """Return what the answer says."""
@@ -241,6 +259,10 @@ class DriveAnswer:
         """Return case and result of every sprocket."""
         cases = self.drive.single_cases
         return {name: (cases[name], result) for name, result in found.results.items()}
+
+    def sheet(self, found: DriveLife) -> str:
+        """Return the calculation sheet of ``wearsim report``."""
+        return sheet_html(found, SheetHead(date.today()))
 
     def words(self, found: DriveLife) -> Words:
         """Return what the answer says."""

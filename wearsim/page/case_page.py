@@ -7,17 +7,17 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from wearsim.case.model import Case
 from wearsim.errors import Fault, WearsimError
 from wearsim.input.document import CaseText
 from wearsim.page.answer_panel import AnswerFinder
-from wearsim.page.answers import error_faults
+from wearsim.page.answers import Answered, error_faults
 from wearsim.page.case_file import CaseFile
 from wearsim.page.chart_colours import palettes
 from wearsim.page.chart_view import style
 from wearsim.page.comparison_panel import Comparison
 from wearsim.page.edit_history import EditHistory
 from wearsim.page.edited_input import EditedInput, StaleError
+from wearsim.page.fault_view import FaultView
 from wearsim.page.fields import Field
 from wearsim.page.file_saver import FileSaver
 from wearsim.page.form_panel import FormPanel
@@ -25,7 +25,6 @@ from wearsim.page.header import Action, Header
 from wearsim.page.text_elements import FaultList
 from wearsim.page.toml_source import parsed_tables, shown_values, with_table, with_value, without_table
 from wearsim.page.what_if import WhatIf
-from wearsim.result import WearResult
 
 _ARRIVED = """
 const bar = document.querySelector(".ws-header");
@@ -46,11 +45,11 @@ class CasePage:
         self._text, self._stopping = text, stopping
         self._version, self._answered, self._gone = 1, 0, False
         self._task: asyncio.Task[None] | None = None
-        self._wheels: tuple[int, Mapping[str, tuple[Case, WearResult]]] = 0, {}
+        self._found: tuple[int, Answered | None] = 0, None
         self._palette = palettes()[0]
         self._history = EditHistory()
         self._client = ui.context.client
-        self._keeper = FileSaver(file, lambda: self._text, self._lived, self._reloaded, self._named)
+        self._keeper = FileSaver(file, lambda: self._text, self._present, self._reloaded, self._named)
         ui.add_css(style(palettes()))
         ui.dark_mode(None)
         self._build()
@@ -72,17 +71,20 @@ class CasePage:
             Action("Pin", "push_pin", self._pin),
             Action("Save", "save", keeper.save),
             Action("Save as", "save_as", keeper.save_as),
+            Action("Sheet", "description", keeper.sheet),
             Action("Export wheel", "download", keeper.export),
         )
         self._header = Header(actions)
         with ui.element("div").classes("ws-main"):
-            with ui.element("section").classes("ws-input").props('aria-label="Input"'):
+            with ui.element("section").classes("ws-input").props('aria-label="Input"') as given:
                 self._what_if = WhatIf(self._turned)
                 with ui.tabs().classes("ws-tabs") as tabs:
                     form, source = ui.tab("Form"), ui.tab("TOML")
                 with ui.tab_panels(tabs, value=form, animated=False).classes("ws-panels"):
                     with ui.tab_panel(form):
-                        self._form = FormPanel(self._typed, self._add_table, self._remove_table)
+                        self._form = FormPanel(
+                            self._typed, self._completed, self._add_table, self._remove_table
+                        )
                     with ui.tab_panel(source):
                         self._source = ui.codemirror(
                             self._text,
@@ -90,11 +92,14 @@ class CasePage:
                             line_wrapping=True,
                             on_change=lambda event: self._edit(event.value, "TOML"),
                         ).classes("ws-source")
-            with ui.element("section").classes("ws-answer").props('aria-label="Answer"'):
-                self._faults = FaultList()
+                        self._source.on("focusout", self._completed)
+            with ui.element("section").classes("ws-answer").props('aria-label="Answer"') as answer:
+                self._faults = FaultView(self._form, FaultList(), self._header)
                 self._comparison = Comparison()
                 with ui.element("div").classes("ws-answer-place"):
                     self._answer = AnswerFinder(self._header, self._show_sound, self._palette)
+        self._header.link("Answer", answer)
+        self._header.link("Input", given)
 
     def _draw(self, dark: bool) -> None:
         self._source.set_theme("basicDark" if dark else "basicLight")
@@ -128,8 +133,12 @@ class CasePage:
         """Take an input from before or after the present one."""
         self._take(step(self._text), "")
 
+    def _completed(self) -> None:
+        self._faults.complete()
+
     def _take(self, text: str, typing: str) -> None:
         self._text = text
+        self._faults.begin(typing != "")
         self._version += 1
         self._show_input(typing)
         self._named()
@@ -195,14 +204,13 @@ class CasePage:
     async def _find(self, version: int) -> None:
         source = CaseText(self._keeper.file.path, self._text)
         edited = EditedInput(source, self._keeper.file, self._staleness(version), self._progress(version))
-        self._wheels = version, await self._answer.find(edited)
+        self._found = version, await self._answer.find(edited)
         self._comparison.show(self._text, self._answer.lives)
         self._header.enable("Pin", True)
 
     def _show_sound(self, taken: Mapping[str, Any]) -> None:
         """Show that the input has no faults, and what it takes where it gives nothing."""
-        self._form.show_faults(())
-        self._faults.show(())
+        self._faults.clear()
         self._form.show_taken(taken)
 
     def _staleness(self, version: int) -> Callable[[], bool]:
@@ -227,12 +235,9 @@ class CasePage:
     def _fail(self, version: int, faults: Sequence[Fault]) -> None:
         if self._staleness(version)():
             return
-        self._form.show_faults(faults)
-        self._faults.show(faults)
-        what = "a fault" if len(faults) == 1 else f"{len(faults)} faults"
-        self._header.show_state("old", f"{what}: showing the previous result")
+        self._faults.fail(faults)
 
-    def _lived(self) -> Mapping[str, tuple[Case, WearResult]]:
-        """Give cases and results of the wheels of the present input, none before they are there."""
-        version, wheels = self._wheels
-        return wheels if version == self._version else {}
+    def _present(self) -> Answered | None:
+        """Give the answer to the present input, nothing before it is there."""
+        version, found = self._found
+        return found if version == self._version else None

@@ -6,12 +6,13 @@ from typing import Any
 
 from nicegui import ui
 
-from wearsim.catalogue.catalogues import chains
 from wearsim.drive.drive_start import start_text
 from wearsim.drive.known_drive import KNOWN, Known, read_known
 from wearsim.errors import CaseError, Fault
+from wearsim.page.choice_lists import choice_list
 from wearsim.page.dialogs import named_dialog
 from wearsim.page.field_words import choice_words
+from wearsim.page.fields import catalogue_words
 from wearsim.page.threads import in_thread
 
 _LOOK = "outlined dense stack-label hide-bottom-space"
@@ -44,8 +45,9 @@ class _Questions:
     def __init__(self, on_enter: Callable[[], Any]) -> None:
         with ui.element("div").classes("ws-fields"):
             self._fields = {known.name: self._field(known, on_enter) for known in KNOWN if known.asked}
+        self._wrong: set[str] = set()  # options that show a fault
         self._others = ui.label().classes("ws-fault")
-        self._follow()
+        self._follow("")
 
     async def answer(self) -> str | None:
         """Return the text of the case, or show what is wrong."""
@@ -57,7 +59,7 @@ class _Questions:
             return None
 
     def _field(self, known: Known, on_enter: Callable[[], Any]) -> Any:
-        label, _, more = re.split("([:;,])", known.what + ";", maxsplit=1)
+        label, _, more = re.split("([:;,(])", known.what + ";", maxsplit=1)
         field: Any
         if known.words:
             field = ui.select(
@@ -65,29 +67,32 @@ class _Questions:
                 label=label,
                 value=known.words[0],
             )
+        elif known.name == "chain":
+            field = choice_list("designation", catalogue_words("chain.designation"), "", label)
         else:
-            proposals = list(chains()) if known.name == "chain" else []
-            field = ui.input(label, autocomplete=proposals).props("autocomplete=off spellcheck=false")
-            field.props["hint"] = more.strip(" ;")
+            field = ui.input(label).props("autocomplete=off spellcheck=false")
+            field.props.set_optional("hint", more.strip(" ;") or None)
             field.on("keydown.enter", on_enter)
+            field.on("blur", lambda: self._follow(""))
         field.classes("ws-field").props(_LOOK)
         field.props["data-known"] = known.name
-        field.on_value_change(self._follow)
+        field.on_value_change(lambda: self._follow("" if known.name == "chain" else known.option))
         return field
 
     def _typed(self) -> dict[str, str | None]:
         return {name: (field.value or "").strip() or None for name, field in self._fields.items()}
 
-    def _follow(self) -> None:
-        """Show what is taken where nothing is typed, and what cannot be read."""
+    def _follow(self, typing: str) -> None:
+        """Show what is taken where nothing is typed, and what cannot be read but for what is typed now."""
         values, faults = read_known(self._typed())
         for known in KNOWN:
             if known.asked:
                 self._fields[known.name].props["placeholder"] = known.default(values)
-        self._show(faults)
+        self._show([fault for fault in faults if fault.file != typing or typing in self._wrong])
 
     def _show(self, faults: Sequence[Fault]) -> None:
         texts = {fault.file: fault.message for fault in faults}
+        self._wrong = {*texts}
         for known in KNOWN:
             if known.asked:
                 self._fields[known.name].error = texts.pop(known.option, None)

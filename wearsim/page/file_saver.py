@@ -1,22 +1,23 @@
-"""Saving a case and exporting its wheel, with the questions that come before."""
+"""Saving a case, its sheet and its wheel, with the questions that come before."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 
 from nicegui import ui
 
 from wearsim.cad import STATES, WHEELS
 from wearsim.cad.wheel_formats import export
-from wearsim.case.model import Case
 from wearsim.errors import WearsimError
+from wearsim.page.answers import Answered
 from wearsim.page.case_file import NEW, CaseFile, example, example_titles, named_beside, new_file, read_file
 from wearsim.page.dialogs import ask_example, ask_export, ask_name, choose
 from wearsim.page.drive_questions import ask_drive
 from wearsim.page.threads import in_thread
-from wearsim.result import WearResult
 
 _FORMATS = tuple(name for name, wheel in WHEELS.items() if not wheel.solid)
 """A solid takes long, and may hold one state only: that is for the command."""
+
+_NO_RESULT = "There is no result for this input yet: wait for it, or correct the input."
 
 
 class FileSaver:
@@ -26,7 +27,7 @@ class FileSaver:
         self,
         file: CaseFile,
         text: Callable[[], str],
-        found: Callable[[], Mapping[str, tuple[Case, WearResult]]],
+        found: Callable[[], Answered | None],
         on_reload: Callable[[str], None],
         on_change: Callable[[], None],
     ) -> None:
@@ -97,24 +98,38 @@ class FileSaver:
 
     async def export(self) -> None:
         """Send the wheel as a file to the browser."""
-        names = tuple(self._found())
-        if not names:
-            ui.notify("There is no result for this input yet: wait for it, or correct the input.")
+        found = self._found()
+        if found is None:
+            ui.notify(_NO_RESULT)
             return
+        names = tuple(found.runs)
         wanted = await ask_export(names, _FORMATS, tuple(STATES))
         found = self._found()
-        if wanted is None or wanted[0] not in found:
+        if wanted is None or found is None or wanted[0] not in found.runs:
             return
         name, form, state = wanted
-        case, result = found[name]
+        case, result = found.runs[name]
         states = STATES[state]
         worn = result if "worn" in states else None
+        called = case.name if len(names) == 1 else name
+        await self._send(lambda: export(case, worn, states, form), f"{called}.{form}")
+
+    async def sheet(self) -> None:
+        """Send the page of ``wearsim report`` as a file to the browser."""
+        found = self._found()
+        if found is None:
+            ui.notify(_NO_RESULT)
+            return
+        await self._send(found.sheet, f"{self.file.path.stem}.html")
+
+    async def _send(self, make: Callable[[], str | bytes], name: str) -> None:
+        """Make a file and send it to the browser."""
         try:
-            content = await in_thread(lambda: export(case, worn, states, form))
+            content = await in_thread(make)
         except WearsimError as error:
             ui.notify(str(error), type="negative", multi_line=True)
             return
-        ui.download.content(content, f"{case.name if len(names) == 1 else name}.{form}")
+        ui.download.content(content, name)
 
     def _write(self, file: CaseFile) -> None:
         try:

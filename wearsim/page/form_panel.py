@@ -8,11 +8,9 @@ from nicegui import ui
 
 from wearsim.errors import Fault
 from wearsim.input.keys import schema_of
-from wearsim.page.field_words import choice_words, label
+from wearsim.page.choice_lists import choice_list, fill_list
+from wearsim.page.field_words import label
 from wearsim.page.fields import Field, form_fields, owner, table_header, table_meaning, table_title, value_at
-
-_MAX_CHOICES = 20
-"""Words of a catalogue that a list still shows at once."""
 
 _LOOK = "outlined dense stack-label hide-bottom-space"
 
@@ -23,10 +21,12 @@ class FormPanel:
     def __init__(
         self,
         on_edit: Callable[[Field, str], None],
+        on_complete: Callable[[], None],
         on_add: Callable[[str], None],
         on_remove: Callable[[str, int], None],
     ) -> None:
-        self._on_edit, self._on_add, self._on_remove = on_edit, on_add, on_remove
+        self._on_edit, self._on_complete = on_edit, on_complete
+        self._on_add, self._on_remove = on_add, on_remove
         self._values: Mapping[str, str] = {}
         self._fields: dict[str, Field] = {}
         self._inputs: dict[str, Any] = {}
@@ -183,12 +183,12 @@ class FormPanel:
         shown = f"{words} *" if field.required else words
         element: Any
         if _choices(field):
-            options = _options(field, value)
-            element = ui.select(options, label=shown, value=value or None, clearable=True)
+            element = choice_list(field.name, _choices(field), value, shown)
         else:
-            element = ui.input(shown, value=value, autocomplete=list(field.proposals))
-            element.props("autocomplete=off spellcheck=false")
+            element = ui.input(shown, value=value).props("autocomplete=off spellcheck=false")
             element.props.set_optional("suffix", field.unit or None)
+            element.on("keydown.enter", self._on_complete)
+            element.on("blur", self._on_complete)
         element.classes("ws-field").props(_LOOK)
         element.props["hint"] = f"{field.name}: {field.meaning}"
         element.props["data-key"] = field.key
@@ -199,24 +199,21 @@ class FormPanel:
         return element
 
     def _edited(self, field: Field, value: str | None) -> None:
-        if (value or "") != self._values.get(field.key, ""):
-            self._on_edit(field, value or "")
+        if (value or "") == self._values.get(field.key, ""):
+            return
+        self._on_edit(field, value or "")
+        if _choices(field):
+            self._on_complete()
 
     def _fill(self, element: Any, field: Field, value: str) -> None:
         if _choices(field):
-            element.set_options(_options(field, value), value=value or None)
+            fill_list(element, field.name, _choices(field), value)
         else:
             element.value = value
 
 
 def _choices(field: Field) -> tuple[str, ...]:
-    return field.choices or (field.proposals if len(field.proposals) <= _MAX_CHOICES else ())
-
-
-def _options(field: Field, value: str) -> dict[str, str]:
-    """Give the choices with their words, and a value that is none of them but stands in the source."""
-    choices = (*_choices(field), *([value] if value else ()))
-    return {choice: choice_words(field.name, choice) for choice in choices}
+    return field.choices or field.proposals
 
 
 def _taken(inputs: Mapping[str, Any], key: str) -> str:

@@ -14,6 +14,11 @@ class FaultList:
         self._place = ui.element("section").classes("ws-faults").props("role=alert")
         self.show(())
 
+    @property
+    def is_shown(self) -> bool:
+        """Whether there are faults to be seen."""
+        return bool(self._place.visible)
+
     def show(self, faults: Sequence[Fault]) -> None:
         """Show faults, or nothing."""
         self._place.set_visibility(bool(faults))
