@@ -111,6 +111,14 @@ def pitch_radius(teeth: float) -> float:
     return 0.5 * PITCH / math.sin(math.pi / teeth)
 
 
+@pytest.mark.parametrize("higher", [0, -1])
+def test_either_tip_of_a_measured_gap_may_lie_higher(tmp_path: Path, higher: int) -> None:
+    """A whole gap has a tip at both ends: which of them noise puts farther out says nothing of the order."""
+    points = points_of(iso606_gap(PITCH, ROLLER, 19, "min"))
+    points[higher] *= 1.0 + 2e-5
+    case_with(tmp_path / "gap.csv", points, points_noise_mm=1e-3)
+
+
 @pytest.mark.wide
 @pytest.mark.parametrize("kind", ["csv", "dxf"])
 @pytest.mark.parametrize("teeth", [18, 20])

@@ -54,6 +54,7 @@ def test_half_outline_is_mirrored(side: float) -> None:
     ("change", "message"),
     [
         (lambda x, y: (x[::-1], y[::-1]), "reverse the order of the points"),
+        (lambda x, y: (x[:101], y[:101]), "from the centre line x = 0 to a tip, .* reverse the order"),
         (lambda x, y: (x[:80], y[:80]), "or start on it, but keeps .* away: add the seat"),
         (lambda x, y: (np.r_[x, x + 10.0], np.r_[y, y]), "once, but does 2 times"),
         (lambda x, y: (x, y - 30.0), "above the sprocket's centre"),
@@ -65,6 +66,18 @@ def test_half_outline_is_mirrored(side: float) -> None:
 def test_unusable_points_are_refused(change, message: str) -> None:
     with pytest.raises(GeometryError, match=message):
         gap_from_points(*change(*half_circle(201)), 0.0, 101, 4.0)
+
+
+@pytest.mark.parametrize("half", [True, False])
+def test_scatter_at_the_bottom_is_named_as_such(half: bool) -> None:
+    """Three points at the bottom of a gap, one of them 0.02 mm on the wrong side: no matter of order."""
+    x, y = half_circle(401)
+    x[[199, 200, 201]] = [-0.02, 0.01, 0.02] if not half else [0.0, 0.02, -0.04]
+    if half:
+        x, y = x[200:], y[200:]
+    with pytest.raises(GeometryError, match=r"scatter by 0.02 mm .* give points_noise_mm = 0.0067 or more"):
+        gap_from_points(x, y, 0.0, 101, 4.0)
+    assert abs(gap_from_points(x, y, 0.0067, 101, 4.0).y.min() - 25.0) < 0.01
 
 
 def test_roller_too_large_for_the_gap_is_refused() -> None:

@@ -14,7 +14,7 @@ from wearsim.geometry.hub import NO_HUB, Hub
 from wearsim.geometry.measured.points import contact_range, flank_from_points, gap_rotation, working_side
 from wearsim.geometry.tooth import CUT_TOLERANCE, RELIEF_PER_PITCH, Tooth
 from wearsim.geometry.wheel_outline import ToothSpace
-from wearsim.input.csv_tables import read_points
+from wearsim.input.csv_tables import read_flank_points
 
 CONTACT_END_PER_PITCH = 0.16
 CONTACT_RATIO = 1.05
@@ -106,7 +106,7 @@ def points_tooth(
     if table.points_file is None or table.evolute_offset_mm is None:
         faults.add("sprocket.evolute_offset_mm", "profile = 'points' on a strand needs this key")
         return None
-    points = read_points(case.path(table.points_file), "sprocket.points_file", faults)
+    points = read_flank_points(case.path(table.points_file), "sprocket.points_file", faults)
     noise = table.points_noise_mm
     if noise is None:
         noise = POINTS_NOISE

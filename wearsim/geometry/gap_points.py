@@ -21,6 +21,9 @@ FEWEST_POINTS = 24
 ON_CENTRE_LINE = 1e-3
 """Distance [mm] from the centre line within which a half outline counts as starting on it."""
 
+_SCATTERED = 0.1
+"""Part of the reach of a gap to one side within which points on the other side are scatter."""
+
 _SHARPEST_TURN = 0.1
 _SEARCH_KNOTS = 12
 _MAX_JOINTS = 10
@@ -143,30 +146,76 @@ def _whole_outline(x: Vector, y: Vector, noise: float) -> Vector:
             f"{y.min():.4g} mm: move the points"
         )
     near = max(ON_CENTRE_LINE, 3.0 * noise)
-    side = np.sign(x[np.abs(x) > near])
+    beside = x[np.abs(x) > near]
+    side = np.sign(beside)
     crossings = int(np.count_nonzero(np.diff(side)))
     if crossings == 0 and side.size and abs(x[0]) <= near:
         start = int(np.flatnonzero(np.abs(x) <= near)[-1])
         half = np.column_stack([np.abs(x[start:]), y[start:]])
         half[0, 0] = 0.0
         return np.concatenate([half[::-1], half[1:] * [-1.0, 1.0]])
+    _check_crossing(x, near, beside, crossings)
+    apart = np.concatenate([[True], np.hypot(np.diff(x), np.diff(y)) > 0.0])
+    return np.column_stack([x[apart], y[apart]])
+
+
+def _check_crossing(x: Vector, near: float, beside: Vector, crossings: int) -> None:
+    """Raise where the points are neither a whole gap from right to left nor half of one from its bottom."""
     if crossings == 0:
+        if abs(x[-1]) <= near:
+            raise GeometryError(
+                "gap points: half a gap must run from the centre line x = 0 to a tip, but ends at "
+                f"x = {x[-1]:.4g} mm: reverse the order of the points"
+            )
         raise GeometryError(
             "gap points: the outline must cross the centre line x = 0 or start on it, but keeps "
             f"{np.abs(x).min():.4g} mm away: add the seat, or give a whole gap"
+        )
+    if (scatter := _scatter_across(beside)) is not None:
+        raise GeometryError(
+            "gap points: the outline must cross the centre line x = 0 once, but its points scatter by "
+            f"{scatter:.4g} mm to both sides: give points_noise_mm = {_rounded_up(scatter / 3.0)} or more, or "
+            "better points there"
         )
     if crossings > 1:
         raise GeometryError(
             f"gap points: the outline must cross the centre line x = 0 once, but does {crossings} times: "
             "give one gap, from tip to tip"
         )
-    if side[0] < 0.0:
+    if beside[0] < 0.0:
         raise GeometryError(
             "gap points: the outline must run from the right flank (x > 0) to the left one, but starts at "
             f"x = {x[0]:.4g} mm: reverse the order of the points"
         )
-    apart = np.concatenate([[True], np.hypot(np.diff(x), np.diff(y)) > 0.0])
-    return np.column_stack([x[apart], y[apart]])
+
+
+def _scatter_across(x: Vector) -> float | None:
+    """How far points stray over the centre line; None where they do not.
+
+    Scatter is what lies between the first crossing and the last, near the line for the size of the gap,
+    and what half a gap has on its other side.
+    """
+    reach = float(np.abs(x).max())
+    least = float(min(x.max(), -x.min()))
+    if least < _SCATTERED * reach:
+        return least
+    crossed = np.flatnonzero(np.diff(np.sign(x)))
+    between = np.abs(x[crossed[0] + 1 : crossed[-1] + 1])
+    if between.size and between.max() < _SCATTERED * reach:
+        return float(between.max())
+    return None
+
+
+def _rounded_up(value: float) -> str:
+    """Return a number of two digits that is not below a value.
+
+    Examples
+    --------
+    >>> _rounded_up(0.00341)
+    '0.0035'
+    """
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return f"{math.ceil(value / unit) * unit:.2g}"
 
 
 def _thinned(points: Vector, noise: float) -> tuple[Vector, float]:

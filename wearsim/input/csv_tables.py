@@ -99,8 +99,20 @@ def _cells(
     return values
 
 
-def read_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] | None:
+def read_flank_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] | None:
     """Read the points of a flank, from root to tip."""
+    found = read_points(path, key, faults)
+    if found is None:
+        return None
+    radius = np.hypot(*found)
+    if radius[0] > radius[-1]:
+        faults.add(key, f"{path.name}: points must run from root to tip, but the radius falls: reverse them")
+        return None
+    return found
+
+
+def read_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] | None:
+    """Read the points of an outline in their order."""
     columns = read_columns(path, ("x_mm", "y_mm"), (), key, faults)
     if not columns:
         return None
@@ -112,10 +124,6 @@ def read_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] |
     same = np.flatnonzero(np.diff(chord_lengths(x, y)) == 0.0)
     for index in same:
         faults.add(key, f"{path.name}:{index + 3}: the point repeats the one before: remove it")
-    radius = np.hypot(x, y)
-    if radius[0] > radius[-1]:
-        faults.add(key, f"{path.name}: points must run from root to tip, but the radius falls: reverse them")
-        return None
     return None if same.size else (x, y)
 
 
