@@ -100,6 +100,15 @@ def test_table_on_stdout_and_failures(cli, sweep):
     assert "2 of 2 cases failed" in done.err
 
 
+def test_case_with_several_faults_stays_one_row(cli, sweep):
+    done = cli("sweep", sweep('[grid]\n"load.power_kW" = [3, 3000]\n"sprocket.teeth" = [20, 9]\n'))
+    table = done.out.splitlines()
+    assert len(table) == 2 + 4
+    assert all(line.startswith("| ") and line.endswith(" |") for line in table[2:])
+    assert "load.power_kW: " in table[-1]
+    assert "; sprocket.evolute_offset_mm: " in table[-1]
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [

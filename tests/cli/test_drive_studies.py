@@ -63,6 +63,9 @@ def test_what_no_drive_can_have_is_refused_before_a_run(cli, drive, tmp_path):
     done = cli("sweep", study, "--set", "run.horizon_hours=20")
     assert done.code == 5
     assert "failed: " in done.out and "> 20 (limit not reached)" in done.out
+    good, bad = done.out.splitlines()[2:]
+    assert good.endswith("| limit not reached | limit not reached | limit not reached |")
+    assert bad.endswith("|  |  |  |  |")
 
 
 @pytest.mark.slow

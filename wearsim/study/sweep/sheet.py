@@ -3,6 +3,7 @@
 import json
 import math
 from collections.abc import Mapping
+from functools import partial
 from operator import itemgetter
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,7 @@ def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
         *(Column("", itemgetter(key), key, _shown, missing="None") for key in design.keys),
         Column("", _life, "life, h"),
         Column("", lambda row: "" if row["error"] else row["stop"], "ended by"),
-        *(Column("", itemgetter(column), f"{name}, h", grouped) for name, column in parts),
+        *(Column("", partial(_part_life, column), f"{name}, h") for name, column in parts),
     ]
     return AnswerTable(columns, table.to_dict("records")).markdown()
 
@@ -63,10 +64,17 @@ def write_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> None:
 
 def _life(row: Mapping[Any, Any]) -> str:
     if row["error"]:
-        return f"failed: {row['error']}"
+        return f"failed: {'; '.join(row['error'].splitlines())}"
     if math.isnan(row["life_hours"]):
         return f"> {grouped(row['hours_run'])} (limit not reached)"
     return grouped(row["life_hours"])
+
+
+def _part_life(column: str, row: Mapping[Any, Any]) -> str:
+    """Return the hours of a part; empty where the case failed, as the row says above."""
+    if row["error"]:
+        return ""
+    return "limit not reached" if math.isnan(row[column]) else grouped(row[column])
 
 
 def _shown(value: Any) -> str:
