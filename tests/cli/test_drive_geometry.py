@@ -102,6 +102,21 @@ def checked(cli, tmp_path):
     return _checked
 
 
+@pytest.mark.parametrize(
+    ("x", "y", "side"),
+    [(396, 0, "below"), (-396, 0, "above"), (0, 396, "to the right of"), (0, -396, "to the left of")],
+)
+def test_sense_of_two_placed_sprockets_is_said(checked, x, y, side):
+    """The spans open towards the larger wheel: the tight one pulls the shaft of the driver to its side."""
+    text = placed(NO_80, 396).replace("[396, 0]", f"[{x}, {y}]").replace("= 47", "= 47\nslack_tension_N = 20")
+    found = json.loads(checked(text).out)
+    (said,) = [one for one in found["assumptions"] if "counter-clockwise" in one]
+    assert f"its slack span lies {side} the line of centres" in said
+    pull = found["layout"]["sprockets"][0]["shaft_direction_deg"]
+    beside = (pull - math.degrees(math.atan2(y, x)) + 180.0) % 360.0 - 180.0
+    assert 0.0 < beside < 90.0  # left of the way to the driven wheel, so that the slack span is right of it
+
+
 def centre(layout) -> float:
     one, two = layout["sprockets"]
     return two["x_mm"] - one["x_mm"]

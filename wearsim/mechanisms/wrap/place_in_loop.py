@@ -75,6 +75,8 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
         return None
     if table.links is None:
         case.take("drive.links", layout.links, "the even number that fits the sprockets as they stand")
+    if len(place.wheels) == 2:
+        case.assumptions.append(_sense_of_two(place))
     if layout.links % 2:
         case.warnings.append(odd_links_warning(layout.links))
     if drive.take_up is not None:
@@ -104,6 +106,22 @@ def _loop(pitch: float, wheels: tuple[Wheel, ...]) -> ChainLoop:
         except CaseError:
             pass
         raise
+
+
+def _sense_of_two(place: PlaceInLoop) -> str:
+    """Say which way round two wheels run, whose places are the same either way, and where it is slack."""
+    driver, driven = sorted(zip(place.shares, place.wheels, strict=True), key=lambda one: -one[0])
+    across = driven[1].centre[0] - driver[1].centre[0]
+    up = driven[1].centre[1] - driver[1].centre[1]
+    # The span that leaves the driver, to the right of the line from its centre to the other.
+    if abs(across) >= abs(up):
+        side = "below" if across > 0.0 else "above"
+    else:
+        side = "to the right of" if up > 0.0 else "to the left of"
+    return (
+        "two sprockets with position_mm: the chain runs counter-clockwise (y upwards), its slack span lies "
+        f"{side} the line of centres; if it runs clockwise, change the sign of both x"
+    )
 
 
 def _take_up(case: ChainRecord, loop: ChainLoop, place: PlaceInLoop) -> TakeUp | None:
