@@ -174,8 +174,7 @@ def _check_crossing(x: Vector, near: float, beside: Vector, crossings: int) -> N
     if (scatter := _scatter_across(beside)) is not None:
         raise GeometryError(
             "gap points: the outline must cross the centre line x = 0 once, but its points scatter by "
-            f"{scatter:.4g} mm to both sides: give points_noise_mm = {_rounded_up(scatter / 3.0)} or more, or "
-            "better points there"
+            f"{scatter:.4g} mm to both sides: give points_noise_mm = {_rounded_up(scatter / 3.0)} or more"
         )
     if crossings > 1:
         raise GeometryError(
