@@ -62,6 +62,8 @@ def plain(*values):
 def test_commands(complete):
     assert complete("l") == plain("life", "list", "loads", "lubricate")
     assert complete("compl") == plain("completion")
+    assert complete("handbook", "st") == plain("stiffness-spectrum", "strength")
+    assert complete("st") == []
 
 
 def test_options(complete):
@@ -73,8 +75,8 @@ def test_options(complete):
 
 @pytest.mark.wide
 def test_cases_but_no_other_files(complete):
-    for command in ("life", "check", "loads", "profile", "maintain", "remaining", "strength"):
-        assert complete(command, "dri") == plain("drive.toml")
+    for command in ("life", "check", "loads", "profile", "maintain", "remaining", "handbook strength"):
+        assert complete(*command.split(), "dri") == plain("drive.toml")
     everything = plain("cases/a.toml", "cases/b.toml", "drive.toml", "gears.toml")
     assert complete("life", "") == everything
     assert complete("life", "cases/") == plain("cases/a.toml", "cases/b.toml")
@@ -84,7 +86,7 @@ def test_cases_but_no_other_files(complete):
 
 def test_shipped_cases_once_something_is_typed(complete):
     assert complete("life", "pack") == plain("packaging-conveyor")
-    assert complete("strength", "strength-b") == plain("strength-b-carburised")
+    assert complete("handbook", "strength", "strength-b") == plain("strength-b-carburised")
     assert complete("sweep", "teeth-") == plain("teeth-and-tension")
     assert complete("check", "fzg-c14-16t-mild", "--set", "gear.mod") == plain("gear.module_mm=")
 
@@ -115,7 +117,7 @@ def test_keys(complete):
     assert complete("loads", "gears.toml", "--set", "gear.mod") == plain("gear.module_mm=")
     assert complete("check", "drive.toml", "--set", "gear.mod") == []
     torque = plain("load.pinion_torque_N_m=")
-    assert complete("strength", "x.toml", "--set", "load.pinion_to") == torque
+    assert complete("handbook", "strength", "x.toml", "--set", "load.pinion_to") == torque
     assert not [line for line in complete("life", "--set", "duty") if "[" in line]
 
 

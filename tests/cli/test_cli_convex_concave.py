@@ -43,7 +43,7 @@ def sheet(**changed):
 
 
 def test_text(cli):
-    done = cli("convex-concave", CASE)
+    done = cli("handbook", "convex-concave", CASE)
     assert done.code == 0
     words = re.sub(r"\s+", " ", done.out)
     for part in (
@@ -78,7 +78,7 @@ def names(value):
 
 
 def test_json(cli):
-    done = cli("-q", "convex-concave", CASE, "--json")
+    done = cli("-q", "handbook", "convex-concave", CASE, "--json")
     content = json.loads(done.out)
     assert (done.code, done.err) == (0, "")
     assert (content["schema_version"], content["case"]) == (1, "convex-concave-17-34")
@@ -91,7 +91,7 @@ def test_json(cli):
 
 def test_files(cli, tmp_path):
     out = tmp_path / "pair"
-    assert cli("convex-concave", CASE, "--out", out).code == 0
+    assert cli("handbook", "convex-concave", CASE, "--out", out).code == 0
     assert sorted(path.name for path in out.iterdir()) == FILES
     tables = {name: pd.read_csv(out / f"{name}.csv") for name in ("flanks", "rack", "rollers")}
     assert {column for table in tables.values() for column in table} - set(quantities()) == set()
@@ -113,7 +113,7 @@ def test_files(cli, tmp_path):
     assert flanks[flanks.part == "head"].reduced_radius_mm.notna().all()
     assert tables["rack"].y_mm.iloc[[0, -1]].to_numpy() == pytest.approx([-4.5, 4.5])
     assert tables["rollers"].over_pins_mm[3] == pytest.approx(86.87407122, abs=5e-9)
-    again = cli("convex-concave", CASE, "--out", out)
+    again = cli("handbook", "convex-concave", CASE, "--out", out)
     assert again.code == 2 and "must not exist yet" in again.err
     check_folder(out, force=True)
 
@@ -221,7 +221,7 @@ def test_defaults(tmp_path):
     ],
 )
 def test_bad_input(cli, setting, code, message):
-    done = cli("convex-concave", CASE, "--set", setting)
+    done = cli("handbook", "convex-concave", CASE, "--set", setting)
     assert (done.code, done.out) == (code, "")
     assert message in done.err
     assert "Traceback" not in done.err
@@ -243,7 +243,7 @@ def test_bad_input(cli, setting, code, message):
     ],
 )
 def test_warnings(cli, settings, message):
-    done = cli("convex-concave", CASE, *(part for one in settings for part in ("--set", one)))
+    done = cli("handbook", "convex-concave", CASE, *(part for one in settings for part in ("--set", one)))
     assert done.code == 0
     assert message in done.err
 

@@ -12,7 +12,7 @@ CASE = ROOT / "cases" / "sizing" / "face-load-mill-drive.toml"
 
 
 def test_text(cli):
-    done = cli("face-load", CASE)
+    done = cli("handbook", "face-load", CASE)
     assert done.code == 0
     lines = done.out.splitlines()
     assert lines[0] == "Girth gear of a mill, 7.09 MW on one pinion"
@@ -33,7 +33,7 @@ def test_text(cli):
 
 def test_json_and_files_agree(cli, tmp_path):
     out = tmp_path / "face"
-    done = cli("face-load", CASE, "--json", "--out", out)
+    done = cli("handbook", "face-load", CASE, "--json", "--out", out)
     assert done.code == 0
     found = json.loads(done.out)
     assert found == json.loads((out / "result.json").read_text())
@@ -58,12 +58,12 @@ def test_json_and_files_agree(cli, tmp_path):
     mean = found["mean_load_per_width_N_per_mm"]
     assert max(first) / mean == pytest.approx(found["states"][0]["face_load_factor"])
     assert found["varying_running_in_hours"] is None
-    assert cli("face-load", CASE, "--out", out).code == 2
+    assert cli("handbook", "face-load", CASE, "--out", out).code == 2
 
 
 def test_states_of_the_shipped_case_by_hand(cli):
     """q_m = 7.09e6/(pi 0.65 170/60)/1000 N/mm: K = (2 c 0.18/q_m)^(1/2), 1 + c 0.06/(2 q_m)."""
-    states = json.loads(cli("face-load", CASE, "--json").out)["states"]
+    states = json.loads(cli("handbook", "face-load", CASE, "--json").out)["states"]
     mean = 7.09e6 / (math.pi * 0.65 * 170 / 60) / 1000
     factors = [state["face_load_factor"] for state in states]
     assert factors[0] == pytest.approx(math.sqrt(2 * 2e4 * 0.18 / mean), rel=1e-4)
@@ -75,7 +75,7 @@ def test_states_of_the_shipped_case_by_hand(cli):
 
 
 def test_what_turns_with_the_wheel(cli):
-    done = cli("face-load", CASE, "--set", "misalignment.varies_with=wheel")
+    done = cli("handbook", "face-load", CASE, "--set", "misalignment.varies_with=wheel")
     assert done.code == 0
     assert "one that turns with a wheel in 10 210 h" in done.out.replace("\n             ", " ")
     assert "fixed pinion: not yet run in after 8 000 h" in done.err
@@ -83,7 +83,7 @@ def test_what_turns_with_the_wheel(cli):
 
 def test_too_few_slices_are_told(cli):
     settings = ("--set", "pair.slices=20", "--set", "misalignment.fixed_misalignment_um=2000")
-    done = cli("face-load", CASE, *settings)
+    done = cli("handbook", "face-load", CASE, *settings)
     assert done.code == 0
     assert "slices carry the whole load, so K_Hbeta is rough: raise pair.slices" in done.err
 
@@ -102,7 +102,7 @@ def test_too_few_slices_are_told(cli):
     ],
 )
 def test_bad_input_is_2_and_named(cli, setting, named):
-    done = cli("face-load", CASE, "--set", setting)
+    done = cli("handbook", "face-load", CASE, "--set", setting)
     assert (done.code, done.out) == (2, "")
     assert f"--set {setting.partition('=')[0]}: " in done.err
     assert named in done.err
@@ -110,7 +110,7 @@ def test_bad_input_is_2_and_named(cli, setting, named):
 
 def test_units_are_converted(cli):
     title = ("--set", "title=One")
-    plain = cli("face-load", CASE, "--json", "-q", *title).out
+    plain = cli("handbook", "face-load", CASE, "--json", "-q", *title).out
     given = [
         part
         for text in (
@@ -120,7 +120,7 @@ def test_units_are_converted(cli):
         )
         for part in ("--set", text)
     ]
-    assert cli("face-load", CASE, "--json", "-q", *title, *given).out == plain
+    assert cli("handbook", "face-load", CASE, "--json", "-q", *title, *given).out == plain
 
 
 def test_page_shows_what_is_printed(cli):

@@ -2,27 +2,31 @@
 
 import re
 import shlex
-import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 from wearsim.cli.command_groups import COMMAND_GROUPS
+from wearsim.cli.handbook import CALCULATIONS
 from wearsim.cli.main import wearsim_command
+from wearsim.extras import libraries
 
-EXAMPLES = [example for commands in COMMAND_GROUPS.values() for example in commands.values()]
+EXAMPLES = sorted(
+    {example for commands in (*COMMAND_GROUPS.values(), CALCULATIONS) for example in commands.values()}
+)
 
 
 def test_every_command_stands_in_one_group_with_one_line_and_one_example(cli):
     _, *groups = re.split(r"\n\n(?=[A-Z][a-z ]+:\n  \w)", cli("--help").out.partition("Options:")[2])
-    headings = ["Design", "Life", "Maintain", "Studies", "Export", "Gears and handbook", "Housekeeping"]
+    headings = ["Design", "Life", "Maintain", "Studies", "Export", "Gears", "Housekeeping"]
     assert [group.partition(":")[0] for group in groups] == headings
     lines = [line for group in groups for line in group.strip().splitlines()[1:]]
     assert max(map(len, lines)) <= 80
     names, examples = lines[::2], [line.strip() for line in lines[1::2]]
-    assert sorted(line.split()[0] for line in names) == sorted(wearsim_command.commands)
+    assert sorted(line.split()[0] for line in names) == sorted(
+        name for name, command in wearsim_command.commands.items() if not command.hidden
+    )
     for name, example in zip(names, examples, strict=True):
         assert re.match(r"  \S+  +\S.*[.?]$", name)
         assert example.split()[:2] == ["wearsim", name.split()[0]]
@@ -32,45 +36,98 @@ def test_every_command_stands_in_one_group_with_one_line_and_one_example(cli):
 def test_example_is_a_command_line(example, tmp_path, monkeypatch):
     """Click refuses unknown options, wrong values and arguments that are missing."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "readings.csv").touch()
     _, name, *words = shlex.split(example)
-    wearsim_command.commands[name].make_context(name, words)
+    context = wearsim_command.commands[name].make_context(name, words)
+    if name == "handbook":
+        name, *words = words
+        CALCULATION_OF[name].make_context(name, words, parent=context)
 
 
-SHORT = {
-    "maintain": ("--set", "run.horizon_hours=20"),
-    "report": ("--set", "run.horizon_hours=20"),
-    "lubricate": ("--set", "run.horizon_hours=20"),
-    "uncertainty": ("--samples", "64"),
-    "sensitivity": ("--samples", "16"),
-    "optimise": ("--evaluations", "20"),
-    "judge": ("--particles", "100"),
-}
-"""What makes a command that runs many lives or fits short."""
+CALCULATION_OF = {command.name: command for command in CALCULATIONS}
 
-CASES = Path(__file__).parents[2] / "cases"
+HIDDEN = [
+    "SALib",
+    "build123d",
+    "distributed",
+    "jinja2",
+    "nicegui",
+    "optuna",
+    "pandera",
+    "plotly",
+    "pyarrow",
+    "reliability",
+    "skfem",
+    "xlsxwriter",
+]
+"""Modules that only the extras bring."""
 
-OWN = {
-    "calibrate": {"drive.toml": "16b-20t-oiled.toml", "readings.csv": "studies/16b-20t-readings.csv"},
-    "judge": {"readings.csv": "studies/metal-wear.csv"},
-}
-"""In place of the files that a user has, by command."""
+NEEDS = {"calibrate": "study", "report": "report", "sensitivity": "study", "ui": "ui"}
+"""The extra that a command cannot do without."""
+
+
+def test_what_is_hidden_is_what_the_extras_bring():
+    extras = {one.name for one in libraries() if one.extra not in ("", "docs", "browser")}
+    always = {one.name for one in libraries() if not one.extra}
+    assert {name.replace("skfem", "scikit-fem") for name in HIDDEN} == extras - always
+
+
+@pytest.fixture
+def bare(monkeypatch, tmp_path):
+    """An empty folder, and the installation without extras."""
+    monkeypatch.chdir(tmp_path)
+    for name in HIDDEN:
+        monkeypatch.setitem(sys.modules, name, None)
 
 
 @pytest.mark.wide
-@pytest.mark.parametrize("example", [one for one in EXAMPLES if one.split()[1] not in ("ui", "warm")])
-def test_example_runs(cli, example, tmp_path, monkeypatch):
-    """All but the page, which waits for a browser, and the kernels, which take a minute to compile."""
+@pytest.mark.parametrize("example", [one for one in EXAMPLES if one.split()[1] not in (*NEEDS, "warm")])
+def test_example_runs_as_printed_on_the_bare_installation(cli, bare, example):
+    """All but the kernels, which take a minute to compile."""
+    done = cli(*shlex.split(example)[1:])
+    assert done.code == 0, done.err
+
+
+@pytest.mark.parametrize("name", NEEDS)
+def test_example_that_needs_an_extra_says_how_to_install_it(cli, bare, name):
+    (example,) = [one for one in EXAMPLES if one.split()[1] == name]
+    done = cli(*shlex.split(example)[1:])
+    assert (done.code, done.out) == (2, "")
+    install = f"pip install 'wearsim[{NEEDS[name]}]'"
+    assert done.err.endswith(f"which is not installed: {install}\n")
+    assert install in " ".join(cli(name, "--help").out.split())
+
+
+@pytest.mark.wide
+@pytest.mark.parametrize("name", sorted(NEEDS.keys() - {"ui"}))
+def test_example_runs_as_printed_with_its_extra(cli, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
-    _, name, *words = shlex.split(example)
-    for file, shipped in OWN.get(name, {}).items():
-        shutil.copy(CASES / shipped, file)
-    done = cli(name, *words, *SHORT.get(name, ()))
+    (example,) = [one for one in EXAMPLES if one.split()[1] == name]
+    done = cli(*shlex.split(example)[1:])
     assert done.code == 0, done.err
 
 
 def test_help_of_a_command_ends_with_its_example(cli):
-    assert cli("wave-drive", "--help").out.endswith("Example:\n    wearsim wave-drive wave-drive-100\n")
+    example = "wearsim handbook wave-drive wave-drive-100"
+    assert cli("handbook", "wave-drive", "--help").out.endswith(f"Example:\n    {example}\n")
+
+
+def test_no_example_of_the_handbook_is_broken(cli):
+    shown = cli("handbook", "--help").out.splitlines()
+    assert {line.strip() for line in shown} >= set(CALCULATIONS.values())
+    assert max(map(len, shown)) <= 80
+
+
+@pytest.mark.parametrize("name", ["strength", "wave-drive"])
+def test_calculation_by_its_name_of_before(cli, name):
+    """It does the same, is not shown, and says what it is called now."""
+    (case,) = [example.split()[-1] for example in EXAMPLES if f" {name} " in example]
+    before, now = cli(name, case), cli("handbook", name, case)
+    assert (before.code, before.out) == (0, now.out)
+    assert (
+        f"wearsim {name} is now wearsim handbook {name}; the old name works until wearsim 0.4" in before.err
+    )
+    assert now.err in before.err
+    assert f"\n  {name} " not in cli("--help").out
 
 
 def test_module_is_the_command():

@@ -33,7 +33,7 @@ def solved(monkeypatch):
 
 
 def test_text(cli):
-    done = cli("hertz-check", CASE)
+    done = cli("handbook", "hertz-check", CASE)
     assert done.code == 0
     lines = done.out.splitlines()
     assert lines[0] == "Gear pair 36/54 at the pitch point, 240 N m"
@@ -49,12 +49,12 @@ def test_text(cli):
     assert "Finite elements here" not in done.out
     assert "warning: 464 MPa is not what the formula gives for this contact" in done.err
     assert "differs by 7.9 %, not by 9.9 %" in done.err
-    assert cli("hertz-check", CASE, "-q").err == ""
+    assert cli("handbook", "hertz-check", CASE, "-q").err == ""
 
 
 def test_json_and_files_agree(cli, tmp_path):
     out = tmp_path / "check"
-    done = cli("hertz-check", CASE, "--json", "--out", out)
+    done = cli("handbook", "hertz-check", CASE, "--json", "--out", out)
     assert done.code == 0
     found = json.loads(done.out)
     assert list(found)[:4] == ["schema_version", "wearsim_version", "case", "title"]
@@ -73,7 +73,7 @@ def test_json_and_files_agree(cli, tmp_path):
 
 def test_finite_elements_are_shown(cli, tmp_path, solved):
     out = tmp_path / "check"
-    done = cli("hertz-check", CASE, "--fem", "--json", "--out", out)
+    done = cli("handbook", "hertz-check", CASE, "--fem", "--json", "--out", out)
     assert done.code == 0
     assert solved == [4, 8, 16]
     names = {path.name for path in out.iterdir()}
@@ -90,28 +90,30 @@ def test_finite_elements_are_shown(cli, tmp_path, solved):
     assert [mesh["unknowns"] for mesh in meshes] == [400, 800, 1600]
     assert meshes[0]["peak_pressure_error_percent"] == pytest.approx(98.17, abs=0.01)
     assert "finest mesh is off by +98.2 % in peak_pressure, more than 3 %" in done.err
-    text = cli("hertz-check", CASE, "--fem")
+    text = cli("handbook", "hertz-check", CASE, "--fem")
     assert "    16      1600    900.000 +98.17 %" in text.out
     assert max(map(len, text.out.splitlines())) <= 100
-    again = cli("hertz-check", CASE, "--json", "--set", f"finite_elements.axis_file='{out}/fem_axis.csv'")
+    again = cli(
+        "handbook", "hertz-check", CASE, "--json", "--set", f"finite_elements.axis_file='{out}/fem_axis.csv'"
+    )
     assert json.loads(again.out)["contact"]["axis_file"]["depth_von_mises_MPa"] == 450.0
 
 
 def test_finite_elements_take_their_extra(cli, monkeypatch):
     monkeypatch.setitem(sys.modules, "skfem", None)
-    done = cli("hertz-check", CASE, "--fem")
+    done = cli("handbook", "hertz-check", CASE, "--fem")
     assert (done.code, done.out) == (2, "")
     assert "--fem: needs scikit-fem, which is not installed: pip install 'wearsim[fem]'" in done.err
 
 
 def test_force_replaces_only_what_it_wrote(cli, tmp_path, solved):
     out = tmp_path / "check"
-    assert cli("hertz-check", CASE, "--fem", "--out", out).code == 0
-    assert cli("hertz-check", CASE, "--out", out).code == 2
-    assert cli("hertz-check", CASE, "--out", out, "--force").code == 0
+    assert cli("handbook", "hertz-check", CASE, "--fem", "--out", out).code == 0
+    assert cli("handbook", "hertz-check", CASE, "--out", out).code == 2
+    assert cli("handbook", "hertz-check", CASE, "--out", out, "--force").code == 0
     assert not (out / "meshes.csv").exists()
     (out / "notes.txt").write_text("mine")
-    assert cli("hertz-check", CASE, "--out", out, "--force").code == 2
+    assert cli("handbook", "hertz-check", CASE, "--out", out, "--force").code == 2
 
 
 def test_a_contact_of_ones_own(cli, tmp_path):
@@ -120,12 +122,12 @@ def test_a_contact_of_ones_own(cli, tmp_path):
         'format_version = 1\n[contact]\ntorque_N_m = "0.1 kN m"\ngear_ratio = 3\n'
         "face_width_mm = 40\npinion_pitch_diameter_mm = 60\n"
     )
-    done = cli("hertz-check", path)
+    done = cli("handbook", "hertz-check", path)
     assert done.code == 0
     assert done.out.startswith("own\n  Load ")
     assert "What one key alone" not in done.out
     assert done.err == ""
-    found = json.loads(cli("hertz-check", path, "--json").out)
+    found = json.loads(cli("handbook", "hertz-check", path, "--json").out)
     head = {"schema_version", "wearsim_version", "case", "title"}
     assert set(found) == {*head, "contact", "assumptions", "warnings"}
     assert found["contact"]["contact_ratio"] is None
@@ -145,7 +147,7 @@ def test_a_contact_of_ones_own(cli, tmp_path):
     ],
 )
 def test_doubtful_input_is_told(cli, setting, named):
-    done = cli("hertz-check", CASE, "--set", setting)
+    done = cli("handbook", "hertz-check", CASE, "--set", setting)
     assert done.code == 0
     assert named in done.err
 
@@ -165,7 +167,7 @@ def test_doubtful_input_is_told(cli, setting, named):
     ],
 )
 def test_bad_input_is_2_and_named(cli, setting, named):
-    done = cli("hertz-check", CASE, "--set", setting)
+    done = cli("handbook", "hertz-check", CASE, "--set", setting)
     assert (done.code, done.out) == (2, "")
     assert f"--set {setting.partition('=')[0]}" in done.err
     assert named in done.err
@@ -182,13 +184,13 @@ def test_bad_input_is_2_and_named(cli, setting, named):
 def test_bad_axis_file_is_2_and_named(cli, tmp_path, rows, named):
     path = tmp_path / "axis.csv"
     path.write_text(rows)
-    done = cli("hertz-check", CASE, "--set", f"finite_elements.axis_file='{path}'")
+    done = cli("handbook", "hertz-check", CASE, "--set", f"finite_elements.axis_file='{path}'")
     assert (done.code, done.out) == (2, "")
     assert named in done.err
 
 
 def test_teeth_that_cannot_run_are_3(cli):
-    done = cli("hertz-check", CASE, "--json", "--set", "teeth.pinion_teeth=5")
+    done = cli("handbook", "hertz-check", CASE, "--json", "--set", "teeth.pinion_teeth=5")
     assert done.code == 3
     assert json.loads(done.out)["error"]["kind"] == "GeometryError"
     assert "Traceback" not in done.err

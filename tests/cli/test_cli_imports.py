@@ -82,4 +82,4 @@ def test_life_loads_pint_for_a_string_with_a_unit(drive):
     ],
 )
 def test_calculations_load_neither_numba_nor_what_only_a_folder_needs(command, case, needed):
-    assert loaded(command, CASES / f"{case}.toml") == needed
+    assert loaded("handbook", command, CASES / f"{case}.toml") == needed

@@ -18,13 +18,13 @@ def elsewhere(tmp_path, monkeypatch):
         ("check", "16b-20t-oiled", "16b-20t-oiled: ok"),
         ("check", "packaging-conveyor", "sprockets motor, conveyor"),
         ("life", "hertz-arc-prescribed", "2.61e+07 cycles"),
-        ("wave-drive", "wave-drive-100", "Wave gear, ratio 100"),
+        ("handbook wave-drive", "wave-drive-100", "Wave gear, ratio 100"),
         ("sweep", "teeth-and-tension", "| 40 | 8000 |"),
     ],
 )
 def test_commands_take_names(cli, command, name, word):
     """The life is that of an independent program: 26 102 090 cycles."""
-    done = cli(command, name)
+    done = cli(*command.split(), name)
     assert done.code == 0
     assert word in done.out
 

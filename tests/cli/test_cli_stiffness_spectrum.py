@@ -12,7 +12,7 @@ DOUBLE = ("--set", "spectrum.model=double_sum")
 
 
 def test_shipped_case_as_text(cli):
-    done = cli("stiffness-spectrum", CASE)
+    done = cli("handbook", "stiffness-spectrum", CASE)
     assert (done.code, done.err) == (0, "")
     assert max(map(len, done.out.splitlines())) <= 100
     assert "ratio 1.60518; mean 1.60325 contacts; model pairs" in done.out
@@ -25,12 +25,14 @@ def test_shipped_case_as_text(cli):
 
 def test_page_shows_what_is_printed(cli):
     page = (CASE.parents[2] / "docs/stiffness-spectrum.md").read_text("utf-8")
-    assert page.partition("```text\n")[2].partition("```")[0] == cli("stiffness-spectrum", CASE).out
+    assert (
+        page.partition("```text\n")[2].partition("```")[0] == cli("handbook", "stiffness-spectrum", CASE).out
+    )
 
 
 def test_source_model_as_json(cli):
     """The reference of the double sum, one-sided: twice 0.0031624935 at fz - f1."""
-    found = json.loads(cli("stiffness-spectrum", CASE, *DOUBLE, "--json").out)
+    found = json.loads(cli("handbook", "stiffness-spectrum", CASE, *DOUBLE, "--json").out)
     lines = {line["line"]: line for line in found["lines"]}
     assert (found["schema_version"], found["case"]) == (1, "stiffness-spectrum-20-30")
     assert found["mean_contacts"] == pytest.approx(2.8136029088, abs=6e-11)
@@ -49,20 +51,20 @@ def test_without_speed_and_load_there_are_no_such_numbers(cli, tmp_path):
     text = CASE.read_text("utf-8").partition("[statics]")[0].replace("pinion_speed_rpm", "# ")
     path = tmp_path / "bare.toml"
     path.write_text(text)
-    found = json.loads(cli("stiffness-spectrum", path, "--json").out)
+    found = json.loads(cli("handbook", "stiffness-spectrum", path, "--json").out)
     assert "statics" not in found
     assert found["mesh_frequency_Hz"] is None
     line = found["lines"][0]
     assert line["frequency_Hz"] is line["series_one_sided_amplitude"] is None
     assert line["stiffness_one_sided_amplitude_N_per_mm"] is None
-    text = cli("stiffness-spectrum", path).out
+    text = cli("handbook", "stiffness-spectrum", path).out
     assert "Hz" not in text
     assert "N/mm" not in text
 
 
 def test_files(cli, tmp_path):
     out = tmp_path / "out"
-    assert cli("stiffness-spectrum", CASE, *COARSE, *DOUBLE, "--out", out).code == 0
+    assert cli("handbook", "stiffness-spectrum", CASE, *COARSE, *DOUBLE, "--out", out).code == 0
     assert {path.name for path in out.iterdir()} == {
         ".wearsim",
         *("result.json", "lines.csv", "statics.csv"),
@@ -76,11 +78,11 @@ def test_files(cli, tmp_path):
     svg = (out / "stiffness_spectrum.svg").read_text("utf-8")
     for text in ("fz - f1", "fz + f1 + f2", "turns of the wheel", "closed form", "stiffness, kN/mm"):
         assert f">{text}<" in svg
-    assert cli("stiffness-spectrum", CASE, "--out", out).code == 2
+    assert cli("handbook", "stiffness-spectrum", CASE, "--out", out).code == 2
 
 
 def test_printed_formula_says_how_far_it_is_off(cli):
-    done = cli("stiffness-spectrum", CASE, *DOUBLE, "--set", "spectrum.formula=printed")
+    done = cli("handbook", "stiffness-spectrum", CASE, *DOUBLE, "--set", "spectrum.formula=printed")
     assert "formula = printed: the closed form gives 0.9666 at fz, where 1.808 is exact" in done.err
 
 
@@ -96,13 +98,13 @@ def test_warnings_of_what_is_out_of_range(cli):
 
 def test_teeth_that_lose_contact_are_a_warning_and_with_a_load_an_error(cli, tmp_path):
     large = ("--set", "wheel.pitch_error_mm=3", "--set", "wheel.error_order=12")
-    done = cli("stiffness-spectrum", CASE, *large, "--json")
+    done = cli("handbook", "stiffness-spectrum", CASE, *large, "--json")
     assert done.code == 3
     assert json.loads(done.out)["error"]["kind"] == "GeometryError"
     assert "some teeth must touch at every moment" in done.err
     path = tmp_path / "unloaded.toml"
     path.write_text(CASE.read_text("utf-8").partition("[statics]")[0])
-    done = cli("stiffness-spectrum", path, *large)
+    done = cli("handbook", "stiffness-spectrum", path, *large)
     assert done.code == 0
     assert "% of the time: lower pitch_error_mm" in done.err
 
@@ -118,7 +120,7 @@ def test_teeth_that_lose_contact_are_a_warning_and_with_a_load_an_error(cli, tmp
     ],
 )
 def test_bad_input(cli, setting, words):
-    done = cli("stiffness-spectrum", CASE, "--set", setting)
+    done = cli("handbook", "stiffness-spectrum", CASE, "--set", setting)
     assert (done.code, done.out) == (2, "")
     assert words in done.err
     assert "Traceback" not in done.err

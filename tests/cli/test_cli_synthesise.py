@@ -36,7 +36,7 @@ def undrawn(monkeypatch):
 
 @pytest.mark.usefixtures("undrawn")
 def test_text(cli):
-    done = cli("synthesise", POLE)
+    done = cli("handbook", "synthesise", POLE)
     assert (done.code, done.err) == (0, "")
     assert "at least 364.119 MPa at the pitch point (at 45 deg)" in done.out
     assert "takes a pressure angle of 20 deg" in " ".join(done.out.split())
@@ -48,7 +48,7 @@ def test_text(cli):
 @pytest.mark.usefixtures("undrawn")
 def test_page_shows_what_is_printed(cli):
     page = (CASES.parents[1] / "docs" / "synthesise.md").read_text()
-    whole, second = cli("synthesise", POLE).out, cli("synthesise", SEGMENTS).out
+    whole, second = cli("handbook", "synthesise", POLE).out, cli("handbook", "synthesise", SEGMENTS).out
     assert whole in page
     phase = second[second.index("  Phase 2") : second.index("\n\n  Assumes")]
     assert phase in page
@@ -58,7 +58,7 @@ def test_page_shows_what_is_printed(cli):
 
 @pytest.mark.usefixtures("undrawn")
 def test_json(cli):
-    done = cli("synthesise", SEGMENTS, "--json")
+    done = cli("handbook", "synthesise", SEGMENTS, "--json")
     assert done.code == 0
     assert "phase 2: the pressure angle reaches 40.4 deg" in done.err
     found = json.loads(done.out)
@@ -78,7 +78,7 @@ def test_json(cli):
 def test_files(cli, tmp_path):
     out = tmp_path / "made"
     settings = ("--set", "field.field_nodes=21", "--set", "field.directions_deg=15")
-    assert cli("synthesise", POLE, "--out", out, *settings).code == 0
+    assert cli("handbook", "synthesise", POLE, "--out", out, *settings).code == 0
     made = {path.name for path in out.iterdir()}
     figures = ("line_of_action", "indices", "field_great_radii", "field_small_radii")
     tables = ("indices", "line_of_action", "pinion_profile", "wheel_profile", "stress_fields")
@@ -101,8 +101,8 @@ def test_files(cli, tmp_path):
     profile = pd.read_csv(out / "pinion_profile.csv")
     radius = np.hypot(profile["x_mm"], profile["y_mm"])
     assert np.interp(0, profile["pitch_point_distance_mm"], radius) == pytest.approx(54)
-    assert cli("synthesise", POLE, "--out", out, *settings).code == 2
-    assert cli("synthesise", POLE, "--out", out, *settings, "--force").code == 0
+    assert cli("handbook", "synthesise", POLE, "--out", out, *settings).code == 2
+    assert cli("handbook", "synthesise", POLE, "--out", out, *settings, "--force").code == 0
 
 
 FAULTS = [
@@ -198,7 +198,7 @@ FAULTS = [
 @pytest.mark.parametrize(("case", "setting", "code", "message"), FAULTS)
 @pytest.mark.usefixtures("undrawn")
 def test_faults(cli, case, setting, code, message):
-    done = cli("synthesise", case, "--set", setting)
+    done = cli("handbook", "synthesise", case, "--set", setting)
     assert (done.code, done.out) == (code, "")
     shown = done.err.replace("--set ", "")
     assert message in shown
@@ -207,7 +207,7 @@ def test_faults(cli, case, setting, code, message):
 
 @pytest.mark.usefixtures("undrawn")
 def test_failed_case_as_json(cli):
-    done = cli("synthesise", POLE, "--json", "--set", "stress.contact_stress_MPa=300")
+    done = cli("handbook", "synthesise", POLE, "--json", "--set", "stress.contact_stress_MPa=300")
     found = json.loads(done.out)
     assert (done.code, found["error"]["kind"]) == (3, "GeometryError")
 
@@ -216,9 +216,12 @@ def test_failed_case_as_json(cli):
 def test_line_through_the_pitch_point_needs_the_stress_there(cli):
     phase = "phase=[{first_pitch_point_distance_mm = 3, last_pitch_point_distance_mm = 9}]"
     radius_rule = "stress={contact_stress_MPa = [500, 600], pitch_point_distance_mm = [LEAST, 10]}"
-    done = cli("synthesise", POLE, "--set", phase, "--set", radius_rule.replace("LEAST", "3"))
+    done = cli("handbook", "synthesise", POLE, "--set", phase, "--set", radius_rule.replace("LEAST", "3"))
     assert done.code == 2 and "must reach from 0 to 9 as phase 1 does (got 3 to 10)" in done.err
-    assert cli("synthesise", POLE, "--set", phase, "--set", radius_rule.replace("LEAST", "0")).code == 0
+    assert (
+        cli("handbook", "synthesise", POLE, "--set", phase, "--set", radius_rule.replace("LEAST", "0")).code
+        == 0
+    )
 
 
 def test_schema(cli):
@@ -229,7 +232,7 @@ def test_schema(cli):
 @pytest.mark.usefixtures("undrawn")
 def test_involute_that_interferes_is_left_out(cli):
     setting = "phase=[{first_pitch_point_distance_mm = -19, last_pitch_point_distance_mm = 0}]"
-    done = cli("synthesise", POLE, "--json", "--set", setting)
+    done = cli("handbook", "synthesise", POLE, "--json", "--set", setting)
     assert "phase 1: the involute interferes over part of these distances" in done.err
     rows = json.loads(done.out)["indices"]
     assert rows[0]["involute_contact_stress_MPa"] is None

@@ -10,7 +10,7 @@ CASE = Path(__file__).parents[2] / "cases" / "sizing" / "wave-drive-100.toml"
 
 
 def test_text(cli):
-    done = cli("wave-drive", CASE)
+    done = cli("handbook", "wave-drive", CASE)
     assert done.code == 0
     lines = done.out.splitlines()
     assert lines[0] == "Wave gear, ratio 100, 800 N m"
@@ -32,12 +32,12 @@ def test_text(cli):
     assert "defaults: pressure.load_nonuniformity = 1.5" in " ".join(done.out.split())
     assert "the methods differ by a factor of 1.82" in done.err
     assert "rim_bending: 1 % of endurance_limit_MPa moves the diameter by 3.2 %" in done.err
-    assert cli("wave-drive", CASE, "-q").err == ""
+    assert cli("handbook", "wave-drive", CASE, "-q").err == ""
 
 
 def test_json_and_files_agree(cli, tmp_path):
     out = tmp_path / "wave"
-    done = cli("wave-drive", CASE, "--json", "--out", out)
+    done = cli("handbook", "wave-drive", CASE, "--json", "--out", out)
     assert done.code == 0
     found = json.loads(done.out)
     assert list(found)[:4] == ["schema_version", "wearsim_version", "case", "title"]
@@ -62,11 +62,11 @@ def test_json_and_files_agree(cli, tmp_path):
 
 def test_force_replaces_only_what_it_wrote(cli, tmp_path):
     out = tmp_path / "wave"
-    assert cli("wave-drive", CASE, "--out", out).code == 0
-    assert cli("wave-drive", CASE, "--out", out).code == 2
-    assert cli("wave-drive", CASE, "--out", out, "--force").code == 0
+    assert cli("handbook", "wave-drive", CASE, "--out", out).code == 0
+    assert cli("handbook", "wave-drive", CASE, "--out", out).code == 2
+    assert cli("handbook", "wave-drive", CASE, "--out", out, "--force").code == 0
     (out / "notes.txt").write_text("mine")
-    assert cli("wave-drive", CASE, "--out", out, "--force").code == 2
+    assert cli("handbook", "wave-drive", CASE, "--out", out, "--force").code == 2
 
 
 def test_defaults_suffice(cli, tmp_path):
@@ -75,12 +75,12 @@ def test_defaults_suffice(cli, tmp_path):
         "format_version = 1\n[wave_drive]\ngear_ratio = 120\n"
         'output_torque_N_m = "0.5 kN m"\ngenerator_speed_rpm = 1000\n'
     )
-    done = cli("wave-drive", path, "--json")
+    done = cli("handbook", "wave-drive", path, "--json")
     assert done.code == 0
     found = json.loads(done.out)
     assert found["title"] == "own"
     assert [row["published_diameter_mm"] for row in found["methods"]] == [None] * 7
-    text = cli("wave-drive", path)
+    text = cli("handbook", "wave-drive", path)
     assert "reproduced" not in text.out
     assert "crushing.allowable_crushing_MPa = 20" in text.out.replace("\n             ", " ")
 
@@ -91,7 +91,7 @@ def test_what_has_no_diameter_with_its_defaults_is_left_out(cli, tmp_path):
         "format_version = 1\n[wave_drive]\ngear_ratio = 60\n"
         "output_torque_N_m = 500\ngenerator_speed_rpm = 1000\n"
     )
-    done = cli("wave-drive", path, "--json")
+    done = cli("handbook", "wave-drive", path, "--json")
     assert done.code == 0
     assert len(json.loads(done.out)["methods"]) == 6
     assert "warning: left out: rim_bending: the endurance of the rim" in done.err
@@ -99,7 +99,7 @@ def test_what_has_no_diameter_with_its_defaults_is_left_out(cli, tmp_path):
 
 
 def test_printed_formula_is_flagged(cli):
-    done = cli("wave-drive", CASE, "--set", "torsion.formula=printed")
+    done = cli("handbook", "wave-drive", CASE, "--set", "torsion.formula=printed")
     assert done.code == 0
     assert "torsion: 142 mm NOT reproduced (451.3 mm)" in done.out
     assert "torsion: the formula as printed is wrong" in done.err
@@ -118,7 +118,7 @@ def test_printed_formula_is_flagged(cli):
     ],
 )
 def test_bad_input_is_2_and_named(cli, setting, named):
-    done = cli("wave-drive", CASE, "--set", setting)
+    done = cli("handbook", "wave-drive", CASE, "--set", setting)
     assert (done.code, done.out) == (2, "")
     assert f"--set {setting.partition('=')[0]}: " in done.err
     assert named in done.err
@@ -132,11 +132,11 @@ def test_bad_input_is_2_and_named(cli, setting, named):
     ],
 )
 def test_no_diameter_is_3(cli, setting, named):
-    done = cli("wave-drive", CASE, "--set", setting)
+    done = cli("handbook", "wave-drive", CASE, "--set", setting)
     assert (done.code, done.out) == (3, "")
     assert named in done.err
     assert "Traceback" not in done.err
-    done = cli("wave-drive", CASE, "--set", setting, "--json")
+    done = cli("handbook", "wave-drive", CASE, "--set", setting, "--json")
     assert done.code == 3
     assert json.loads(done.out)["error"]["kind"] == "GeometryError"
 

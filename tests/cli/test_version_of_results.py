@@ -85,7 +85,7 @@ def test_answers_on_a_whole_drive(cli, two_sprockets, tmp_path, version, command
 
 def test_calculation_and_its_folder(cli, tmp_path, version):
     out = tmp_path / "out"
-    (found,) = heads(cli, "strength", SIZING / "strength-a-tempered.toml", "--out", out)
+    (found,) = heads(cli, "handbook", "strength", SIZING / "strength-a-tempered.toml", "--out", out)
     assert found == head(version)
     assert json.loads((out / "result.json").read_text())["wearsim_version"] == version
 

@@ -105,7 +105,7 @@ def runs() -> dict[str, tuple[str, ...]]:
         found[f"loads {stem}"] = ("loads", f"{stem}.toml", "--worst")
     for path in sorted(CASES.glob("sizing/*.toml")):
         [command] = [name for name in CALCULATIONS if path.stem.startswith(name)]
-        found[f"{command} {path.stem}"] = (command, f"sizing/{path.name}")
+        found[f"{command} {path.stem}"] = ("handbook", command, f"sizing/{path.name}")
     for stem in EXPORTED:
         found[f"export {stem}"] = ("export", f"{stem}.toml")
         found[f"profile {stem}"] = ("profile", f"{stem}.toml")

@@ -112,7 +112,9 @@ def calculation_columns(path, folder):
     with pytest.MonkeyPatch.context() as patch:
         # Pictures have no columns, and take twice as long as all the rest.
         patch.setattr("matplotlib.figure.Figure.savefig", lambda *_, **__: None)
-        done = CliRunner().invoke(wearsim_command, [command, str(path), "-q", "--out", str(folder)])
+        done = CliRunner().invoke(
+            wearsim_command, ["handbook", command, str(path), "-q", "--out", str(folder)]
+        )
     assert done.exit_code == 0, done.output
     yield from keys_below(json.loads((folder / "result.json").read_text(encoding="utf-8")))
     for table in folder.glob("*.csv"):

@@ -26,7 +26,7 @@ SIZING = Path(__file__).parents[2] / "cases" / "sizing"
 
 
 def printed(command, case):
-    done = CliRunner().invoke(wearsim_command, [command, str(SIZING / f"{case}.toml"), "--json"])
+    done = CliRunner().invoke(wearsim_command, ["handbook", command, str(SIZING / f"{case}.toml"), "--json"])
     assert done.exit_code == 0, done.output
     # Older versions of click show warnings among the answer.
     return json.loads(next(line for line in done.stdout.splitlines() if line.startswith("{")))

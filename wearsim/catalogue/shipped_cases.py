@@ -18,6 +18,26 @@ def shipped_cases() -> dict[str, Path]:
     return {}
 
 
+@cache
+def shipped_readings() -> dict[str, Path]:
+    """Return the place of every shipped table of readings by its name."""
+    folders = {path.parent for path in shipped_cases().values() if path.parent.name == "studies"}
+    return {path.stem: path for folder in folders for path in sorted(folder.glob("*.csv"))}
+
+
+def place_of_readings(path: Path) -> Path:
+    """Return where readings are: the path itself, or the shipped ones of that name where no file has it.
+
+    Examples
+    --------
+    >>> place_of_readings(Path("metal-wear")).name, place_of_readings(Path("my.csv")).name
+    ('metal-wear.csv', 'my.csv')
+    """
+    if path.name != str(path) or path.is_file():
+        return path
+    return shipped_readings().get(str(path), path)
+
+
 def place_of_case(path: Path) -> Path:
     """Return where a case is: the path itself, or the shipped case of that name where no file has it.
 

@@ -9,6 +9,7 @@ from wearsim.cli.compare import compare
 from wearsim.cli.completion import completion
 from wearsim.cli.doctor import doctor
 from wearsim.cli.export import export
+from wearsim.cli.handbook import handbook
 from wearsim.cli.init import init
 from wearsim.cli.life import life
 from wearsim.cli.list import list_table
@@ -18,13 +19,6 @@ from wearsim.cli.report import report
 from wearsim.cli.schema import schema
 from wearsim.cli.ui import ui
 from wearsim.cli.warm import warm
-from wearsim.handbook.convex_concave.command import convex_concave
-from wearsim.handbook.face_load.command import face_load
-from wearsim.handbook.hertz_check.command import hertz_check
-from wearsim.handbook.stiffness_spectrum.command import stiffness_spectrum
-from wearsim.handbook.strength.command import strength
-from wearsim.handbook.synthesise.command import synthesise
-from wearsim.handbook.wave_drive.command import wave_drive
 from wearsim.study.calibrate.command import calibrate
 from wearsim.study.judge.command import judge
 from wearsim.study.lubricate.command import lubricate
@@ -54,8 +48,8 @@ COMMAND_GROUPS: dict[str, dict[click.Command, str]] = {
         maintain: "wearsim maintain packaging-conveyor",
         lubricate: "wearsim lubricate bicycle-17t-lubricants",
         remaining: "wearsim remaining 16b-20t-oiled --hours 900 --depth-mm 0.1",
-        calibrate: "wearsim calibrate drive.toml readings.csv",
-        judge: "wearsim judge readings.csv",
+        calibrate: "wearsim calibrate 16b-20t-oiled 16b-20t-readings",
+        judge: "wearsim judge metal-wear",
     },
     "Studies": {
         sweep: "wearsim sweep teeth-and-tension",
@@ -67,15 +61,7 @@ COMMAND_GROUPS: dict[str, dict[click.Command, str]] = {
         export: "wearsim export 16b-20t-oiled --out wheel.dxf",
         profile: "wearsim profile 16b-20t-oiled --out flank.csv",
     },
-    "Gears and handbook": {
-        strength: "wearsim strength strength-a-tempered",
-        stiffness_spectrum: "wearsim stiffness-spectrum stiffness-spectrum-20-30",
-        face_load: "wearsim face-load face-load-mill-drive",
-        hertz_check: "wearsim hertz-check hertz-check-36-54",
-        synthesise: "wearsim synthesise synthesise-two-segments",
-        convex_concave: "wearsim convex-concave convex-concave-17-34",
-        wave_drive: "wearsim wave-drive wave-drive-100",
-    },
+    "Gears": {handbook: "wearsim handbook strength strength-a-tempered"},
     "Housekeeping": {
         list_table: "wearsim list chains",
         schema: "wearsim schema --of gear",
@@ -85,19 +71,3 @@ COMMAND_GROUPS: dict[str, dict[click.Command, str]] = {
         completion: "wearsim completion bash",
     },
 }
-
-
-class CommandGroups(click.Group):
-    """A command whose help shows all others in their groups."""
-
-    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write what each command does, and beneath it the example."""
-        for group, commands in COMMAND_GROUPS.items():
-            with formatter.section(group):
-                formatter.write_dl(
-                    [
-                        row
-                        for command, example in commands.items()
-                        for row in ((command.name or "", command.short_help or ""), ("", example))
-                    ]
-                )

@@ -11,8 +11,10 @@ from types import FrameType
 import click
 
 from wearsim._version import __version__
-from wearsim.cli.command_groups import COMMAND_GROUPS, CommandGroups
+from wearsim.cli.command_groups import COMMAND_GROUPS
 from wearsim.cli.completion import use_own_bash
+from wearsim.cli.handbook import commands_of_before
+from wearsim.command.example_group import ExampleGroup
 from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error, uses_colour
 from wearsim.errors import WearsimError
 
@@ -43,7 +45,8 @@ def announce_compiling() -> None:
 
 
 @click.group(
-    cls=CommandGroups,
+    cls=ExampleGroup,
+    groups=COMMAND_GROUPS,
     help=_HELP,
     short_help="Life of chain drives and gears by wear.",
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -55,10 +58,8 @@ def wearsim_command() -> None:
     announce_compiling()
 
 
-for _commands in COMMAND_GROUPS.values():
-    for _command, _example in _commands.items():
-        _command.epilog = f"\b\nExample:\n  {_example}"
-        wearsim_command.add_command(_command)
+for _command in commands_of_before():
+    wearsim_command.add_command(_command)
 
 
 class _Interrupt:

@@ -75,9 +75,10 @@ def report(
     """Write pages about runs (folders of life --out) and cases (.toml, run now).
 
     Open index.html in the folder: the page of the drive, or, for several, a comparison that links to
-    their pages. The pages need no network. Needs wearsim[report].
+    their pages. The pages need no network. Needs jinja2 and plotly (pip install 'wearsim[report]').
 
-    A case with [[sprocket]] twice or more is a whole drive: one page, a calculation sheet for A4.
+    A case with [[sprocket]] twice or more is a whole drive: one page, a calculation sheet for A4,
+    which needs jinja2 only.
 
     --out sheet.pdf writes the page of one drive as PDF, with page numbers. Chromium, Chrome or Edge must be
     installed to print it.

@@ -27,7 +27,7 @@ def schema(of_result: bool, command: str | None) -> None:
         click.echo(json.dumps(result_schema(), indent=2))
         return
     from wearsim.case.keys import CaseTablesOrDrive
-    from wearsim.command.registry import OTHER_FILES, tables_of
+    from wearsim.command.registry import CALCULATIONS, OTHER_FILES, tables_of
 
     if command and command not in OTHER_FILES:
         raise click.BadParameter(f"must be one of {', '.join(OTHER_FILES)}, not {command}", param_hint="--of")
@@ -35,7 +35,7 @@ def schema(of_result: bool, command: str | None) -> None:
     content = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         **model.model_json_schema(),
-        "title": f"wearsim {command or 'case'}",
+        "title": f"wearsim handbook {command}" if command in CALCULATIONS else f"wearsim {command or 'case'}",
     }
     click.echo(json.dumps(content, indent=2))
 

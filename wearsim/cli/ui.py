@@ -31,7 +31,7 @@ def ui(case: Path | None, port: int, no_browser: bool, settings: tuple[str, ...]
     """Serve a local web page to edit CASE (.toml), or a new case, while its life is recomputed.
 
     Only this machine can reach the page; it needs no network. --set changes the values that the page
-    starts with, not the file. Ctrl-C stops it. Needs wearsim[ui].
+    starts with, not the file. Ctrl-C stops it. Needs nicegui (pip install 'wearsim[ui]').
     """
     from wearsim.extras import check_installed
 

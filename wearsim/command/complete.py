@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from wearsim.catalogue.shipped_cases import place_of_case, shipped_cases
+from wearsim.catalogue.shipped_cases import place_of_case, place_of_readings, shipped_cases
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -48,6 +48,17 @@ class RunPath(_OfferedPath):
     def offered(self, path: Path) -> bool:
         """Tell whether a path is a case or the folder of a run."""
         return super().offered(path) or (path / "result.json").is_file()
+
+
+class ReadingsPath(click.Path):
+    """A table of readings: ``.csv``, or the name of a shipped one."""
+
+    def __init__(self) -> None:
+        super().__init__(exists=True, dir_okay=False, path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the place of the table, which must be there."""
+        return super().convert(str(place_of_readings(Path(value))), param, ctx)
 
 
 def _below(incomplete: str) -> Iterator[str]:

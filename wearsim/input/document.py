@@ -240,13 +240,13 @@ def _override(data: dict[str, Any], item: str) -> None:
 
 
 NEEDED = {
-    "strength": {"drive", "pinion", "wheel"},
-    "stiffness-spectrum": {"gear_pair", "pinion", "wheel"},
-    "wave-drive": {"wave_drive"},
-    "face-load": {"pair", "load", "misalignment", "running_in"},
-    "convex-concave": {"convex_concave"},
-    "synthesise": {"gears", "load", "stress", "phase"},
-    "hertz-check": {"contact"},
+    "handbook strength": {"drive", "pinion", "wheel"},
+    "handbook stiffness-spectrum": {"gear_pair", "pinion", "wheel"},
+    "handbook wave-drive": {"wave_drive"},
+    "handbook face-load": {"pair", "load", "misalignment", "running_in"},
+    "handbook convex-concave": {"convex_concave"},
+    "handbook synthesise": {"gears", "load", "stress", "phase"},
+    "handbook hertz-check": {"contact"},
     "sweep": {"case"},
 }
 """Commands with an input file of their own, and what it must hold beside its version."""
@@ -258,7 +258,7 @@ def command_of(tables: Mapping[str, Any]) -> str:
     Examples
     --------
     >>> command_of({"format_version": 1, "wave_drive": {}}), command_of({"chain": {}}), command_of({})
-    ('wave-drive', 'life', '')
+    ('handbook wave-drive', 'life', '')
     """
     if {"chain", "sprocket", "gear"} & tables.keys():
         return "life"

@@ -1,4 +1,4 @@
-"""``wearsim convex-concave``: geometry of a pair of gears with convex-concave teeth."""
+"""``wearsim handbook convex-concave``: geometry of a pair of gears with convex-concave teeth."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING

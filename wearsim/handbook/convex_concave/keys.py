@@ -1,4 +1,4 @@
-"""The input of ``wearsim convex-concave``: a pair of gears with convex-concave teeth."""
+"""The input of ``wearsim handbook convex-concave``: a pair of gears with convex-concave teeth."""
 
 import math
 from typing import Annotated, Literal

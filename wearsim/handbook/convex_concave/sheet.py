@@ -40,7 +40,7 @@ _ASSUMPTIONS = (
 
 
 def convex_concave_sheet(title: str, layout: PairLayout) -> CalculationSheet:
-    """Return what ``wearsim convex-concave`` shows."""
+    """Return what ``wearsim handbook convex-concave`` shows."""
     pair = layout.pair
     rollers = [one for body in layout.bodies for one in _rollers(body)]
     content = {

@@ -1,4 +1,4 @@
-"""``wearsim face-load``: load along the face of a wide, misaligned pair of gears."""
+"""``wearsim handbook face-load``: load along the face of a wide, misaligned pair of gears."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""The input of ``wearsim face-load``: a wide pair of gears, its misalignment and its wear."""
+"""The input of ``wearsim handbook face-load``: a wide pair of gears, its misalignment and its wear."""
 
 from typing import Annotated
 

@@ -32,7 +32,7 @@ _STATES = {"new": "new", "after": "after", "run_in": "run in"}
 
 
 def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> CalculationSheet:
-    """Return what ``wearsim face-load`` shows."""
+    """Return what ``wearsim handbook face-load`` shows."""
     assumptions = (*_ASSUMPTIONS, _pivot(found), *defaults)
     warnings = _warnings(found)
     states = [_state_row(found, name, state) for name, run in _runs(found) for state in run.states]

@@ -1,4 +1,4 @@
-"""``wearsim hertz-check``: contact stress at the pitch point against a published comparison."""
+"""``wearsim handbook hertz-check``: contact stress at the pitch point against a published comparison."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""The input of ``wearsim hertz-check``: a contact at the pitch point and what was published about it."""
+"""The input of ``wearsim handbook hertz-check``: a contact at the pitch point, and published values."""
 
 import math
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""Reading the input of ``wearsim hertz-check`` with the stresses that it names."""
+"""Reading the input of ``wearsim handbook hertz-check`` with the stresses that it names."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -34,7 +34,7 @@ _GOALS = {"peak_pressure": 3.0, "surface": 5.0, "depth": 5.0}
 def hertz_check_sheet(
     title: str, check: HertzCheck, meshes: Sequence[FemContact], axis: AxisFile | None
 ) -> CalculationSheet:
-    """Return what ``wearsim hertz-check`` shows."""
+    """Return what ``wearsim handbook hertz-check`` shows."""
     contact = check.contact
     shown: dict[str, AnswerTable[Any]] = {
         "combinations": _combinations(check),

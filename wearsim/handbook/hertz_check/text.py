@@ -21,7 +21,7 @@ ASSUMPTIONS = (
 def hertz_check_text(
     title: str, check: HertzCheck, head: Mapping[str, Any], tables: Mapping[str, AnswerTable[Any]]
 ) -> str:
-    """Return what ``wearsim hertz-check`` prints."""
+    """Return what ``wearsim handbook hertz-check`` prints."""
     said = {"combinations": _combinations, "changes": _changes, "comparison": _comparison, "meshes": _meshes}
     blocks = [[title, *_contact(check, head)]]
     blocks += [said[name](check, table) for name, table in tables.items()]

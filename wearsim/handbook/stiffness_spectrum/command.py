@@ -1,4 +1,4 @@
-"""``wearsim stiffness-spectrum``: lines of the mesh stiffness of gears with pitch errors."""
+"""``wearsim handbook stiffness-spectrum``: lines of the mesh stiffness of gears with pitch errors."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""The input of ``wearsim stiffness-spectrum``: a gear pair with pitch errors."""
+"""The input of ``wearsim handbook stiffness-spectrum``: a gear pair with pitch errors."""
 
 import math
 from typing import Annotated, Literal

@@ -28,7 +28,7 @@ _ASSUMPTIONS = (
 
 
 def stiffness_spectrum_sheet(given: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> CalculationSheet:
-    """Return what ``wearsim stiffness-spectrum`` shows."""
+    """Return what ``wearsim handbook stiffness-spectrum`` shows."""
     tables: dict[str, AnswerTable[Any]] = {"lines": _lines_table(spectrum, spectrum.lines)}
     content: dict[str, Any] = {
         "title": given.title,

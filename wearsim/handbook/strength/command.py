@@ -1,4 +1,4 @@
-"""``wearsim strength``: allowable stresses and life factors of a gear pair."""
+"""``wearsim handbook strength``: allowable stresses and life factors of a gear pair."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""The input of ``wearsim strength``: a gear pair, its life, its loads and what its teeth endure."""
+"""The input of ``wearsim handbook strength``: a gear pair, its life, its loads and what its teeth endure."""
 
 import math
 from typing import Annotated, Literal

@@ -30,7 +30,7 @@ _WIDTHS = (46, 23, 23)
 
 
 def strength_text(tables: StrengthTables, pair: PairStrength) -> str:
-    """Return what ``wearsim strength`` prints."""
+    """Return what ``wearsim handbook strength`` prints."""
     hardness = [f"{gear.hardness:g} {gear.treatment.scale}" for gear in pair.gears]
     lines = [
         tables.title,
@@ -157,7 +157,7 @@ _NAMES = ("contact", "bending")
 
 
 def strength_sheet(tables: StrengthTables, pair: PairStrength) -> CalculationSheet:
-    """Return what ``wearsim strength`` shows."""
+    """Return what ``wearsim handbook strength`` shows."""
     gears = [_gear_row(gear, acting) for gear, acting in _acting(pair)]
 
     def _made() -> dict[str, "pd.DataFrame"]:

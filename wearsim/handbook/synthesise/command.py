@@ -1,4 +1,4 @@
-"""``wearsim synthesise``: profiles of a gear pair with a prescribed contact stress."""
+"""``wearsim handbook synthesise``: profiles of a gear pair with a prescribed contact stress."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""The input of ``wearsim synthesise``: a gear pair and the contact stress along its paths of contact."""
+"""The input of ``wearsim handbook synthesise``: gears, and the stress along their paths of contact."""
 
 import math
 from typing import Annotated, Literal

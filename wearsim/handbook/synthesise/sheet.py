@@ -34,7 +34,7 @@ _ROWS = 9
 def synthesis_sheet(
     tables: SynthesisTables, pair: LoadedPair, phases: Sequence[MeshPhase]
 ) -> CalculationSheet:
-    """Return what ``wearsim synthesise`` shows."""
+    """Return what ``wearsim handbook synthesise`` shows."""
     indices = _by_phase(_indices(pair, phase) for phase in phases)
     made = {
         "indices": indices,

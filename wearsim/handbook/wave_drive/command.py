@@ -1,4 +1,4 @@
-"""``wearsim wave-drive``: diameter of a flexspline by several methods."""
+"""``wearsim handbook wave-drive``: diameter of a flexspline by several methods."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""The input of ``wearsim wave-drive``: a wave drive and what each method allows."""
+"""The input of ``wearsim handbook wave-drive``: a wave drive and what each method allows."""
 
 from typing import Annotated, Literal
 

@@ -23,7 +23,7 @@ _ASSUMPTIONS = (
 
 
 def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequence[str]) -> CalculationSheet:
-    """Return what ``wearsim wave-drive`` shows."""
+    """Return what ``wearsim handbook wave-drive`` shows."""
     found = comparison.diameters
     rows = [_row(one) for one in found]
     slopes = [

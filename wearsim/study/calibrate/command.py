@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.answered import Shown, shown_options
-from wearsim.command.complete import CasePath
+from wearsim.command.complete import CasePath, ReadingsPath
 from wearsim.command.options import common_options, finite, overrides, sprocket_option, working
 
 if TYPE_CHECKING:
@@ -16,9 +16,7 @@ if TYPE_CHECKING:
 
 @click.command(short_help="Fit wear coefficients to measurements; remaining hours.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
-@click.argument(
-    "measurements", type=click.Path(path_type=Path, exists=True, dir_okay=False), metavar="MEASUREMENTS"
-)
+@click.argument("measurements", type=ReadingsPath(), metavar="MEASUREMENTS")
 @click.option(
     "--fit",
     "shapes",

@@ -5,11 +5,12 @@ from pathlib import Path
 import click
 
 from wearsim.command.answered import Shown, shown_options
+from wearsim.command.complete import ReadingsPath
 from wearsim.command.options import common_options, working
 
 
 @click.command(short_help="Which wear law do your readings follow?")
-@click.argument("data", type=click.Path(path_type=Path, exists=True, dir_okay=False), metavar="DATA")
+@click.argument("data", type=ReadingsPath(), metavar="DATA")
 @click.option(
     "--particles",
     type=click.IntRange(100, 20_000),

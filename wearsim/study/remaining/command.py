@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.answered import Shown, shown_options
-from wearsim.command.complete import CasePath
+from wearsim.command.complete import CasePath, ReadingsPath
 from wearsim.command.options import (
     common_options,
     finite,
@@ -21,12 +21,7 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
 @click.command(short_help="Remaining life from readings in service.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
-@click.argument(
-    "readings",
-    required=False,
-    type=click.Path(path_type=Path, exists=True, dir_okay=False),
-    metavar="[READINGS]",
-)
+@click.argument("readings", required=False, type=ReadingsPath(), metavar="[READINGS]")
 @click.option(
     "--hours",
     type=_POSITIVE,
