@@ -5,10 +5,15 @@ import json
 
 def test_complete_case(cli, drive):
     path = drive()
-    done = cli("check", path)
-    assert done.code == 0
+    brief, done = cli("check", path), cli("check", path, "--explain")
+    assert done.code == brief.code == 0
+    assert brief.out.splitlines() == [
+        f"{path}: ok",
+        "  assumes  2 assumptions and 14 defaults: --explain shows them",
+    ]
     lines = done.out.splitlines()
     assert lines[0] == f"{path}: ok"
+    assert len(lines) == 1 + 2 + 14
     assert "  assumes  run.horizon_hours = 1e+06 (default: until a limit is met)" in lines
     assert done.err == ""
 

@@ -46,7 +46,7 @@ def test_hours_are_those_of_the_whole_duty(cli, case):
 
 
 def test_check_says_how_the_blocks_count(cli, case):
-    done = cli("check", case(BLOCKS))
+    done = cli("check", case(BLOCKS), "--explain")
     assert done.code == 0
     assert "speed 100 rpm is the mean over the time of the duty" in done.out
     assert "that of the heaviest one" in done.out

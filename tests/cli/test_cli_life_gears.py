@@ -98,7 +98,7 @@ def test_bad_input(cli, gears, replaced, said):
 
 
 def test_check_knows_gears(cli, gears):
-    done = cli("check", gears())
+    done = cli("check", gears(), "--explain")
     assert done.code == 0
     assert "assumes  gear.pinion_tip_radius_mm = 31.5" in done.out
 

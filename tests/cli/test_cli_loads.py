@@ -172,7 +172,9 @@ def test_table(cli, case):
     assert [float(row[1]) for row in rows] == pytest.approx(tension, abs=0.6)
     assert float(rows[0][4]) == pytest.approx(19.8, abs=0.06)
     assert float(rows[0][5]) == pytest.approx(0.823, abs=1e-3)
-    assert "slack strand 20 N" in lines[-1]
+    assert "slack strand 20 N" in lines[-2]
+    assert lines[-1] == "  Assumes    7 assumptions and 25 defaults: --explain shows them"
+    assert "roller positions minimise" in cli("loads", case, "--explain").out
 
 
 def test_chain_that_jumps(cli, case):

@@ -52,7 +52,7 @@ def answer(cli, *arguments, evaluations=20):
 
 
 def test_best_design_as_text(cli, case):
-    done = cli("optimise", case(), "--evaluations", 40)
+    done = cli("optimise", case(), "--evaluations", 40, "--explain")
     assert done.code == 0
     lines = done.out.splitlines()
     assert lines[:3] == ["Test drive", "", "best design: longest life_hours"]

@@ -95,3 +95,13 @@ def test_title_of_a_life_is_no_markup(on_terminal):
     assert code == 0
     assert out.startswith("A [/red] drive\n")
     assert "wearing A [/red] drive" in shown
+
+
+def test_time_of_a_run_cycle_by_cycle_stands_above_its_answer(cli, drive, monkeypatch):
+    monkeypatch.setattr("wearsim.wear.loop._LONG", 0.0)
+    words = ("life", drive(), "--method", "per_cycle", "--set", "stop.critical_depth_mm=0.003")
+    done = cli(*words)
+    assert done.code == 0
+    assert re.fullmatch(r"cycle by cycle: \S+ updates, about \d+ s\n", done.err)
+    assert cli(*words, "-q").err == ""
+    assert cli("life", drive()).err == ""

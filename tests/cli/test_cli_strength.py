@@ -1,4 +1,4 @@
-"""``wearsim strength``: text, JSON, files and bad input."""
+"""``wearsim handbook strength``: text, JSON, files and bad input."""
 
 import csv
 import json
@@ -114,7 +114,7 @@ def test_a_load_spectrum_of_overloads_only(cli):
 
 def test_schema(cli):
     found = json.loads(cli("schema", "--of", "strength").out)
-    assert found["title"] == "wearsim strength"
+    assert found["title"] == "wearsim handbook strength"
     tables = found["$defs"].values()
     for table in (found, *tables):
         for name, entry in table["properties"].items():
@@ -123,4 +123,4 @@ def test_schema(cli):
 
 def test_the_page_shows_what_the_case_prints(cli):
     page = (CASES.parents[1] / "docs" / "strength.md").read_text("utf-8")
-    assert f"```text\n{cli('strength', A).out}```" in page
+    assert f"```text\n{cli('handbook', 'strength', A).out}```" in page

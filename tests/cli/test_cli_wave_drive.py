@@ -29,7 +29,9 @@ def test_text(cli):
         in done.out
     )
     assert done.out.count("mm reproduced;") == 6
-    assert "defaults: pressure.load_nonuniformity = 1.5" in " ".join(done.out.split())
+    assert "  Assumes    3 assumptions and 5 defaults: --explain shows them\n" in done.out
+    explained = cli("handbook", "wave-drive", CASE, "--explain").out
+    assert "defaults: pressure.load_nonuniformity = 1.5" in " ".join(explained.split())
     assert "the methods differ by a factor of 1.82" in done.err
     assert "rim_bending: 1 % of endurance_limit_MPa moves the diameter by 3.2 %" in done.err
     assert cli("handbook", "wave-drive", CASE, "-q").err == ""
@@ -80,7 +82,7 @@ def test_defaults_suffice(cli, tmp_path):
     found = json.loads(done.out)
     assert found["title"] == "own"
     assert [row["published_diameter_mm"] for row in found["methods"]] == [None] * 7
-    text = cli("handbook", "wave-drive", path)
+    text = cli("handbook", "wave-drive", path, "--explain")
     assert "reproduced" not in text.out
     assert "crushing.allowable_crushing_MPa = 20" in text.out.replace("\n             ", " ")
 
@@ -144,6 +146,6 @@ def test_no_diameter_is_3(cli, setting, named):
 def test_page_shows_what_is_printed(cli):
     docs = Path(__file__).parents[2] / "docs"
     page = (docs / "wave-drive.md").read_text(encoding="utf-8")
-    assert f"```text\n{cli('wave-drive', CASE).out}```" in page
+    assert f"```text\n{cli('handbook', 'wave-drive', CASE).out}```" in page
     picture = (docs / "wave-drive.svg").read_text(encoding="utf-8")
     assert "Wave gear, ratio 100, 800 N m" in picture

@@ -366,7 +366,7 @@ def test_what_the_run_did_not_reach_is_a_bound(cli, drive):
 def test_without_prices_no_cost_is_printed(cli, tmp_path, two_sprockets):
     path = tmp_path / "drive.toml"
     path.write_text(two_sprockets)
-    done = cli("maintain", path)
+    done = cli("maintain", path, "--explain")
     assert done.code == 0
     assert "  Cost       not known without maintenance.chain_price and a price of every sprocket" in done.out
     assert "the plan with the fewest stops, and then parts" in " ".join(done.out.split())

@@ -19,7 +19,7 @@ from wearsim.geometry.forms.evolute import Strand, evolute_flank
 from wearsim.mechanisms.prescribed.contact import PrescribedMechanism
 from wearsim.mechanisms.strand.contact import StrandMechanism
 from wearsim.wear.law import WearLaw, archard, drozdov, power
-from wearsim.wear.loop import run_per_cycle
+from wearsim.wear.loop import check_length, run_per_cycle
 from wearsim.wear.problem import WearProblem
 
 NODES, SPACING, ROLLER, MODULUS, LOAD = 41, 0.1, 5.0, 1e5, 200.0
@@ -207,3 +207,15 @@ def test_a_long_run_tells_how_far_it_is() -> None:
     assert run.met is not None and run.updates > 100_000
     assert len(told) > run.updates // 50_000
     assert told == sorted(told) and 0.0 < told[0] < 0.6 and told[-1] == 1.0
+
+
+@pytest.mark.parametrize(("cycles", "count"), [(1e9, 1), (5e3, 0)])
+def test_a_long_run_says_its_time_before_it_begins(
+    cycles: float, count: int, caplog: pytest.LogCaptureFixture
+) -> None:
+    """10^9 updates of 41 points take many seconds on any machine, 5000 none."""
+    caplog.set_level("INFO", "wearsim")
+    check_length(WearProblem(flat(), archard(1e-12), (depth_limit(DEPTH),), 1e12), cycles, 1)
+    texts = [record.getMessage() for record in caplog.records]
+    assert len(texts) == count
+    assert all(re.fullmatch(r"cycle by cycle: 1e\+09 updates, about \S+ (s|min|h)", one) for one in texts)

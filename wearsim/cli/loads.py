@@ -8,6 +8,7 @@ from wearsim.command.cases_and_runs import one_sprocket
 from wearsim.command.complete import CasePath
 from wearsim.command.options import (
     common_options,
+    explain_option,
     finite,
     load_cases,
     overrides,
@@ -38,6 +39,7 @@ from wearsim.command.options import (
 )
 @click.option("--worst", is_flag=True, help="Use the phase with the largest tooth force.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@explain_option
 @sprocket_option
 @overrides
 @common_options
@@ -47,6 +49,7 @@ def loads(
     phase: float | None,
     worst: bool,
     as_json: bool,
+    explain: bool,
     sprocket: str | None,
     settings: tuple[str, ...],
 ) -> None:
@@ -67,6 +70,6 @@ def loads(
     if as_json:
         print_json(loads_json_of(loaded, teeth), case, loaded.warnings)
         return
-    show(loads_text(loaded, teeth))
+    show(loads_text(loaded, teeth, explain))
     for text in loaded.warnings:
         warn(f"{case}: warning: {text}")

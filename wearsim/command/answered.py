@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import click
 
-from wearsim.command.options import error_json, print_json, show, warn
+from wearsim.command.options import error_json, explain_option, print_json, show, warn
 from wearsim.errors import WearsimError
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ class Shown(NamedTuple):
     out: Path | None  # folder that it is written into
     force: bool  # replace that folder
     as_json: bool
+    explain: bool  # print every assumption
 
     def check(self, *inputs: Path) -> None:
         """Raise where the folder is there already, or holds what is read."""
@@ -53,7 +54,7 @@ class Shown(NamedTuple):
             content = answer.summary()
             print_json(content, source, content["warnings"])
         else:
-            show(answer.text)
+            show(answer.explained if self.explain else answer.text)
 
     def save(self, answer: "DrawnAnswer", source: Path) -> None:
         """Write an answer into its folder, and print it."""
@@ -65,14 +66,17 @@ class Shown(NamedTuple):
 
 
 def shown_options(holds: str) -> Callable[[Function], Function]:
-    """Add ``--out`` for what a folder holds, ``--force`` and ``--json``, as the argument ``shown``."""
+    """Add ``--out`` for what a folder holds, ``--force``, ``--json`` and ``--explain``, as ``shown``."""
 
     def added(function: Function) -> Function:
         @wraps(function)
-        def command(*arguments: Any, out: Path | None, force: bool, as_json: bool, **others: Any) -> Any:
-            return function(*arguments, shown=Shown(out, force, as_json), **others)
+        def command(
+            *arguments: Any, out: Path | None, force: bool, as_json: bool, explain: bool, **others: Any
+        ) -> Any:
+            return function(*arguments, shown=Shown(out, force, as_json, explain), **others)
 
         for option in (
+            explain_option,
             click.option("--json", "as_json", is_flag=True, help="Print one JSON object."),
             click.option("--force", is_flag=True, help="Replace an existing folder."),
             click.option("--out", type=click.Path(path_type=Path), help=f"New folder for {holds}."),

@@ -46,7 +46,7 @@ def _show(sheet: "CalculationSheet", case: Path, shown: Shown) -> None:
     if shown.as_json:
         print_json(sheet.content, case, sheet.warnings)
     else:
-        show(sheet.text)
+        show(sheet.words(shown.explain))
         for text in sheet.warnings:
             warn(f"{case}: warning: {text}")
     if shown.out is not None:

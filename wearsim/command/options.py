@@ -1,6 +1,7 @@
 """What commands share: options, exit codes and the form of a failed case."""
 
 import json
+import logging
 import math
 import os
 import re
@@ -87,6 +88,13 @@ def sprocket_option(function: Function) -> Function:
     )
 
 
+def explain_option(function: Function) -> Function:
+    """Add ``--explain`` to a command whose answer rests on assumptions."""
+    return click.option(
+        "--explain", is_flag=True, help="Print every assumption and default instead of their number."
+    )(function)
+
+
 def warn(text: str) -> None:
     """Print a note on stderr unless ``-q`` was given."""
     if not click.get_current_context().find_root().meta.get("wearsim.quiet"):
@@ -102,8 +110,39 @@ def working(text: str) -> Iterator[Callable[[float], None]]:
     from wearsim.jit.compiled import compile_expected
 
     compile_expected()
-    quiet = click.get_current_context().find_root().meta.get("wearsim.quiet")
-    if quiet or not sys.stderr.isatty():
+    if click.get_current_context().find_root().meta.get("wearsim.quiet"):
+        yield lambda part: None
+        return
+    with _announced_times(), _bar(text) as report_progress:
+        yield report_progress
+
+
+@contextmanager
+def _announced_times() -> Iterator[None]:
+    """Print on stderr how long a run will take, where it says so before it begins."""
+    log, handler = logging.getLogger("wearsim"), _Announced()
+    level = log.level
+    log.setLevel(logging.INFO)
+    log.addHandler(handler)
+    try:
+        yield
+    finally:
+        log.removeHandler(handler)
+        log.setLevel(level)
+
+
+class _Announced(logging.Handler):
+    """What the parts of wearsim log, above the bar."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print a line; a bar takes sys.stderr over while it shows, which click would pass by."""
+        print(record.getMessage(), file=sys.stderr)
+
+
+@contextmanager
+def _bar(text: str) -> Iterator[Callable[[float], None]]:
+    """Show a bar on a terminal's stderr."""
+    if not sys.stderr.isatty():
         yield lambda part: None
         return
     from rich.console import Console

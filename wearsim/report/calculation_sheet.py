@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.files import new_folder
 from wearsim.report.answer_table import AnswerTable
+from wearsim.report.text_lines import answer_text, assumed
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -19,13 +20,18 @@ class CalculationSheet:
     """A finished calculation."""
 
     text: str  # for the screen, at most a hundred characters wide
-    content: Mapping[str, Any]  # for `--json`: plain values, never nan
+    # for `--json`: plain values, never nan; the assumptions are among them
+    content: Mapping[str, Any]
     # by file stem; units in the names of the columns. Only a folder needs them, and the libraries for them
     tables: Callable[[], Mapping[str, "AnswerTable[Any] | pd.DataFrame"]]
     figures: Callable[[], Mapping[str, "Figure"]]  # returns matplotlib.figure.Figure by file stem
     warnings: tuple[str, ...] = ()  # what the user should look at
     # by file name: what writes a further file to the path that it is given
     files: Mapping[str, Callable[[Path], None]] = field(default_factory=dict)
+
+    def words(self, explain: bool) -> str:
+        """Return the text with the number of its assumptions, on request with each of them."""
+        return answer_text(self.text, "", assumed(self.content["assumptions"], explain))
 
     def save(self, folder: Path, force: bool) -> None:
         """Write ``result.json``, a CSV file for each table, each picture as PNG and SVG, and the files."""

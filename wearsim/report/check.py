@@ -12,6 +12,7 @@ from wearsim.report.answer_table import table_of
 from wearsim.report.drive.layout import layout_json, layout_text
 from wearsim.report.public_answer import Answer
 from wearsim.report.rating import notes_text, rating_json, rating_text
+from wearsim.report.text_lines import counted_assumptions
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,8 +45,13 @@ class CheckResult(Answer):
 
     @property
     def text(self) -> str:
-        """Assumptions, ratings, notes and warnings in words."""
+        """Ratings, notes and warnings in words, and how much is assumed."""
         return check_text(self.case, f"{self.title}: {self.headline}")
+
+    @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        return check_text(self.case, f"{self.title}: {self.headline}", explain=True)
 
     @property
     def assumptions(self) -> tuple[str, ...]:
@@ -112,16 +118,18 @@ def check_json(case: Case | DriveCase) -> dict[str, Any]:
     }
 
 
-def check_text(case: Case | DriveCase, head: str) -> str:
+def check_text(case: Case | DriveCase, head: str, explain: bool = False) -> str:
     """Return what is known of a case without a run in words, below a head."""
     one = case.chain_case
+    assumptions = _assumptions(case)
     lines = [
         head,
         layout_text(case) if isinstance(case, DriveCase) else "",
-        *(f"  assumes  {text}" for text in _assumptions(case)),
+        *([f"  assumes  {text}" for text in assumptions] if explain else []),
         rating_text(one),
         notes_text(one),
         *(f"  warning  {text}" for text in _warnings(case)),
+        *([] if explain else [f"  assumes  {counted_assumptions(assumptions)}"]),
     ]
     return "\n".join(filter(None, lines))
 

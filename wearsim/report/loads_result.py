@@ -54,6 +54,11 @@ class LoadsResult(Answer):
         return loads_text(self.case, self.by_sprocket)
 
     @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        return loads_text(self.case, self.by_sprocket, explain=True)
+
+    @property
     def teeth(self) -> "pd.DataFrame":
         """A row for each tooth in the wrap, tooth 1 at the tight end: tension, force, place."""
         rows = (

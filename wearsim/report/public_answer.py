@@ -39,6 +39,11 @@ class Answer(ABC):
         """What the command prints."""
 
     @property
+    def explained(self) -> str:
+        """What the command prints with ``--explain``: the text with every assumption and default."""
+        return self.text
+
+    @property
     def headline(self) -> str:
         """The answer in a few words."""
         return ""

@@ -36,16 +36,27 @@ def fenced(text: str) -> str:
     return f"```\n{text}\n```\n"
 
 
-def closing_lists(assumptions: Sequence[str], warnings: Sequence[str]) -> list[str]:
-    """Return what stands last in a long answer, an assumption and a warning on each line."""
-    numbered_lines = (f"  {number}. {text}" for number, text in enumerate(assumptions, start=1))
-    return ["", "assumptions:", *numbered_lines, *(f"warning: {text}" for text in warnings)]
+def closing_lists(assumptions: Sequence[str], warnings: Sequence[str], explain: bool) -> list[str]:
+    """Return the end of a long answer, a warning and, on request, an assumption on each line."""
+    if explain:
+        stated = [
+            "assumptions:",
+            *(f"  {number}. {text}" for number, text in enumerate(assumptions, start=1)),
+        ]
+    else:
+        stated = [f"assumptions: {counted_assumptions(assumptions)}"]
+    return ["", *stated, *(f"warning: {text}" for text in warnings)]
 
 
-def closing(assumptions: Sequence[str], warnings: Sequence[str]) -> Iterator[Finding]:
-    """Give what stands last in an answer: what it takes for granted, and what is doubtful about it."""
-    yield Finding("Assumes", numbered_assumptions(assumptions))
+def closing(assumptions: Sequence[str], warnings: Sequence[str], explain: bool) -> Iterator[Finding]:
+    """Give the end of an answer: its assumptions, on request each of them, and its warnings."""
+    yield assumed(assumptions, explain)
     yield Finding("Warnings", "; ".join(warnings) or "none")
+
+
+def assumed(assumptions: Sequence[str], explain: bool) -> Finding:
+    """Return the assumptions and defaults of an answer: how many there are, on request each of them."""
+    return Finding("Assumes", (numbered_assumptions if explain else counted_assumptions)(assumptions))
 
 
 def row(label: str, text: str, most_lines: int | None = None) -> str:
@@ -125,8 +136,10 @@ def counted_assumptions(assumptions: Sequence[str]) -> str:
 
 
 def counted(stated: Sequence[str], defaults: Sequence[str]) -> str:
-    """Return how much is taken for granted, and how many defaults are taken."""
-    return f"{_counted(stated, 'assumption')} and {_counted(defaults, 'default')}: --explain shows them"
+    """Return how many assumptions and defaults there are."""
+    kinds = [_counted(stated, "assumption")] if stated or not defaults else []
+    kinds += [_counted(defaults, "default")] if defaults else []
+    return f"{' and '.join(kinds)}: --explain shows them" if stated or defaults else "nothing"
 
 
 def _counted(texts: Collection[str], name: str) -> str:

@@ -5,6 +5,7 @@ deepest point has come to the limit, (12). `wearsim.result.lives` turns the cycl
 """
 
 import contextlib
+import logging
 import math
 import signal
 import threading
@@ -45,6 +46,12 @@ _MAX_POINTS = 1e11
 
 _MAX_RESTING = 200_000
 """Updates of a run where mates rest in the outline, each of some milliseconds."""
+
+
+_FEW, _LONG = 10, 3.0
+"""Trials whose updates take no time worth a word, and seconds above which a run is announced."""
+
+_LOG = logging.getLogger(__name__)
 
 
 @contextlib.contextmanager
@@ -177,7 +184,10 @@ class _CycleRun:
 
 
 def check_length(problem: WearProblem[AnyContact], expected: float, cycles_per_update: int) -> None:
-    """Refuse a run of too many updates before it starts; so many cycles are expected in all."""
+    """Refuse a run of too many updates before it starts, and log how long a long one will take.
+
+    So many cycles are expected in all.
+    """
     run: Callable[[], object]
     if isinstance(problem.contact, RestingContact):
         from wearsim.wear.implicit_steps import run_resting
@@ -189,16 +199,34 @@ def check_length(problem: WearProblem[AnyContact], expected: float, cycles_per_u
         most_updates, tried = int(_MAX_POINTS / problem.contact.profile.x.size), 1000
         run = partial(_CycleRun(problem, cycles_per_update).wear, math.inf, tried)
     updates = expected / cycles_per_update
-    if updates <= most_updates:
+    if updates < _FEW * tried:
         return
+    run()  # loads the loop, which takes longer than these updates
     begin = time.perf_counter()
     run()
-    minutes = updates / tried * (time.perf_counter() - begin) / 60.0
-    length = f"{minutes:.2g} min" if minutes < 99.0 else f"{minutes / 60.0:.0f} h"
-    raise ConvergenceError(
-        f"wear: a cycle-by-cycle run must stay below {most_updates} updates, takes {updates:.3g}, about "
-        f'{length}: take cycles_per_update = {math.ceil(expected / most_updates)} or method = "advance"'
-    )
+    seconds = updates / tried * (time.perf_counter() - begin)
+    if updates > most_updates:
+        raise ConvergenceError(
+            f"wear: a cycle-by-cycle run must stay below {most_updates} updates, takes {updates:.3g}, about "
+            f"{_in_words(seconds)}: take cycles_per_update = {math.ceil(expected / most_updates)} or "
+            'method = "advance"'
+        )
+    if seconds > _LONG:
+        _LOG.info("cycle by cycle: %s updates, about %s", f"{updates:.3g}", _in_words(seconds))
+
+
+def _in_words(seconds: float) -> str:
+    """Return a time as people say it.
+
+    Examples
+    --------
+    >>> _in_words(8.24), _in_words(300.0), _in_words(7.2e4)
+    ('8 s', '5 min', '20 h')
+    """
+    if seconds < 99.0:
+        return f"{seconds:.0f} s"
+    minutes = seconds / 60.0
+    return f"{minutes:.2g} min" if minutes < 99.0 else f"{minutes / 60.0:.0f} h"
 
 
 def run_per_cycle(

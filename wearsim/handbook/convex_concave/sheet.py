@@ -24,7 +24,7 @@ from wearsim.handbook.convex_concave.model import (
 )
 from wearsim.report.answer_table import plain
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
+from wearsim.report.text_lines import Finding, answer_text
 
 _POINTS = 101
 
@@ -55,6 +55,7 @@ def convex_concave_sheet(title: str, layout: PairLayout) -> CalculationSheet:
         "sign_conditions": [_condition(one) for one in pair.sign_conditions],
         "rack_arcs": [_rack_arc(one) for one in layout.rack_arcs],
         "rollers": rollers,
+        "assumptions": list(_ASSUMPTIONS),
     }
     return CalculationSheet(
         text=_text(title, layout),
@@ -214,8 +215,6 @@ def _text(title: str, layout: PairLayout) -> str:
         Finding("Rack", _rack_text(layout)),
         "",
         *_roller_lines(layout),
-        "",
-        Finding("Assumes", numbered_assumptions(_ASSUMPTIONS)),
     )
 
 

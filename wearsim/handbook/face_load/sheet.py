@@ -10,7 +10,7 @@ from wearsim.handbook.face_load.model import FaceLoad
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import plain
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
+from wearsim.report.text_lines import Finding, answer_text
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -72,7 +72,7 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> Cal
         return {"face_load": face_load_figure(title, found)}
 
     return CalculationSheet(
-        text=_text(title, found, states, assumptions),
+        text=_text(title, found, states),
         content=content,
         tables=_made,
         figures=_drawn,
@@ -119,7 +119,7 @@ def _distribution(found: FaceLoad, name: str, state: FaceState) -> dict[str, Any
     }
 
 
-def _text(title: str, found: FaceLoad, states: Sequence[dict[str, Any]], assumptions: tuple[str, ...]) -> str:
+def _text(title: str, found: FaceLoad, states: Sequence[dict[str, Any]]) -> str:
     mesh = found.mesh
     load = (
         f"{grouped(mesh.mean_load)} N/mm on {grouped(mesh.face_width)} mm; stiffness "
@@ -142,8 +142,7 @@ def _text(title: str, found: FaceLoad, states: Sequence[dict[str, Any]], assumpt
         "flanks together"
     )
     head = (title, Finding("Load", load), Finding("Runs in", _running_in(found)))
-    closing = (Finding("Columns", notes), Finding("Assumes", numbered_assumptions(assumptions)))
-    return answer_text(*head, "", *lines, "", *closing)
+    return answer_text(*head, "", *lines, "", Finding("Columns", notes))
 
 
 def _running_in(found: FaceLoad) -> str:

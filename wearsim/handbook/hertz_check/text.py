@@ -7,7 +7,7 @@ from typing import Any
 from wearsim.handbook.hertz_check.model import Comparison, ComparisonColumn, HertzCheck
 from wearsim.handbook.hertz_check.pitch_point_contact import PitchPointContact
 from wearsim.report.answer_table import AnswerTable
-from wearsim.report.text_lines import numbered_assumptions, row
+from wearsim.report.text_lines import row
 
 _REFERENCES = {"larger": "the larger of both", "hertz": "Hertz", "finite_elements": "the finite elements"}
 
@@ -25,7 +25,6 @@ def hertz_check_text(
     said = {"combinations": _combinations, "changes": _changes, "comparison": _comparison, "meshes": _meshes}
     blocks = [[title, *_contact(check, head)]]
     blocks += [said[name](check, table) for name, table in tables.items()]
-    blocks.append([row("Assumes", numbered_assumptions(ASSUMPTIONS))])
     return "\n\n".join("\n".join(line.rstrip() for line in block) for block in blocks)
 
 

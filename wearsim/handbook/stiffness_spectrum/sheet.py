@@ -10,7 +10,7 @@ from wearsim.handbook.stiffness_spectrum.model import SpectrumLine, StiffnessSpe
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column, plain
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
+from wearsim.report.text_lines import Finding, answer_text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -39,6 +39,7 @@ def stiffness_spectrum_sheet(given: StiffnessSpectrumTables, spectrum: Stiffness
         "series_mean_contacts": plain(spectrum.series_mean),
         "variance_share": spectrum.variance_share,
         "lines": tables["lines"].records(),
+        "assumptions": [_COUNTED[given.spectrum.model], *_ASSUMPTIONS],
     }
     if spectrum.statics is not None:
         tables["statics"] = _deflections(spectrum.statics)
@@ -125,8 +126,7 @@ def _text(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> str:
     ]
     ordered = _lines_table(spectrum, sorted(strongest, key=lambda line: line.harmonic))
     statics = [] if spectrum.statics is None else ["", *_statics_parts(spectrum.statics)]
-    assumed = numbered_assumptions((_COUNTED[tables.spectrum.model], *_ASSUMPTIONS))
-    return answer_text(tables.title, *rows, "", *ordered.lines(""), *statics, "", Finding("Assumes", assumed))
+    return answer_text(tables.title, *rows, "", *ordered.lines(""), *statics)
 
 
 def _frequencies(pinion_teeth: int, wheel_teeth: int, frequency: float) -> str:

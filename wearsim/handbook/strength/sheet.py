@@ -20,7 +20,7 @@ from wearsim.handbook.strength.model import (
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import plain
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
+from wearsim.report.text_lines import Finding, answer_text
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -98,7 +98,7 @@ def _findings(tables: StrengthTables, pair: PairStrength) -> list[Finding]:
             Finding("Life", _lives(contact, pair, "contact")),
             Finding("", _lives(bending, pair, "bending")),
         ]
-    return [*lines, Finding("Assumes", numbered_assumptions(_assumptions(tables, pair.load)))]
+    return lines
 
 
 def _load_findings(load: ToothLoad) -> list[Finding]:
@@ -173,7 +173,12 @@ def strength_sheet(tables: StrengthTables, pair: PairStrength) -> CalculationShe
 
     return CalculationSheet(
         text=strength_text(tables, pair),
-        content={"title": tables.title, **_pair_content(pair), "gears": gears},
+        content={
+            "title": tables.title,
+            **_pair_content(pair),
+            "gears": gears,
+            "assumptions": list(_assumptions(tables, pair.load)),
+        },
         tables=_made,
         figures=_drawn,
         warnings=tuple(_warnings(tables, pair)),

@@ -17,7 +17,7 @@ from wearsim.handbook.synthesise.keys import SynthesisTables
 from wearsim.handbook.synthesise.model import MeshField, MeshPhase, direction_fields, stress_fields
 from wearsim.report.answer_table import records_of
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
+from wearsim.report.text_lines import Finding, answer_text
 
 _ASSUMPTIONS = (
     "the wheels are rigid, one pair of teeth carries the whole load, and there is no friction",
@@ -68,6 +68,7 @@ def synthesis_sheet(
             "pitch_point_pressure_angle_deg": _pitch_point_angle(pair),
             "mesh_phases": [_summary(number, phase) for number, phase in enumerate(phases, 1)],
             "indices": records_of(indices),
+            "assumptions": list(_ASSUMPTIONS),
         },
         tables=lambda: made,
         figures=lambda: figures,
@@ -212,7 +213,7 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd
         shown = np.unique(np.linspace(0, len(rows) - 1, _ROWS).astype(int))
         parts += ["", Finding(f"Phase {number}", _phase(phase, rows)), _HEAD]
         parts += [_row(rows.iloc[at]) for at in shown]
-    return answer_text(*parts, "", Finding("Assumes", numbered_assumptions(_ASSUMPTIONS)))
+    return answer_text(*parts)
 
 
 def _phase(phase: MeshPhase, rows: pd.DataFrame) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from wearsim.handbook.wave_drive.model import MethodComparison, MethodDiameter
 from wearsim.report.answer_table import plain
 from wearsim.report.calculation_sheet import CalculationSheet
-from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
+from wearsim.report.text_lines import answer_text
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -46,7 +46,7 @@ def wave_drive_sheet(title: str, comparison: MethodComparison, defaults: Sequenc
         return {"wave_drive": wave_drive_figure(title, found)}
 
     return CalculationSheet(
-        text=_text(title, found, assumptions),
+        text=_text(title, found),
         content={
             "title": title,
             "methods": rows,
@@ -78,7 +78,7 @@ def _row(one: MethodDiameter) -> dict[str, Any]:
     }
 
 
-def _text(title: str, found: Sequence[MethodDiameter], assumptions: tuple[str, ...]) -> str:
+def _text(title: str, found: Sequence[MethodDiameter]) -> str:
     head = f"{'method':18s}{'of':5s}{'limits':26s}{'d, mm':>8s}{'range, mm':>15s}{'rank':>9s}"
     lines = [title, "", f"  {head}{'published':>11s}"]
     for one in found:
@@ -93,7 +93,7 @@ def _text(title: str, found: Sequence[MethodDiameter], assumptions: tuple[str, .
         )
     published = [f"  {_held(one)}" for one in found if not math.isnan(one.published)]
     lines += ["", *published] if published else []
-    return answer_text(*lines, "", Finding("Assumes", numbered_assumptions(assumptions)))
+    return answer_text(*lines)
 
 
 def _held(one: MethodDiameter) -> str:

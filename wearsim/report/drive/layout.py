@@ -12,7 +12,7 @@ from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.wheels import DRIVER
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads
 from wearsim.report.loads_table import loads_json, loads_table
-from wearsim.report.text_lines import row
+from wearsim.report.text_lines import answer_text, assumed, row
 
 
 def drive_forces(drive: DriveCase) -> LoopForces:
@@ -78,12 +78,13 @@ def loads_json_of(case: Case | DriveCase, teeth: Mapping[str, ToothLoads]) -> di
     return {**ANSWER_HEAD, "case": case.name, "layout": layout_json(case), "sprockets": sprockets}
 
 
-def loads_text(case: Case | DriveCase, teeth: Mapping[str, ToothLoads]) -> str:
+def loads_text(case: Case | DriveCase, teeth: Mapping[str, ToothLoads], explain: bool = False) -> str:
     """Return what teeth, and of a drive spans and shafts, carry in words."""
     if isinstance(case, Case):
-        return "\n".join(map(loads_table, teeth.values()))
+        (found,) = teeth.values()
+        return answer_text(loads_table(found), assumed(found.assumptions, explain))
     tables = (loads_table(replace(found, title=name)) for name, found in teeth.items())
-    return "\n".join([case.title, layout_text(case), *tables])
+    return answer_text(case.title, layout_text(case), *tables, assumed(case.assumptions, explain))
 
 
 def loop_names(drive: DriveCase) -> list[str]:

@@ -10,7 +10,7 @@ from wearsim.drive.replacement_rules import ReplacementRule, Stop
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column, csv_of, table_of
 from wearsim.report.drive.plan_words import rule_text
-from wearsim.report.text_lines import Finding, answer_text, fenced
+from wearsim.report.text_lines import Finding, answer_text, closing, fenced
 from wearsim.result import Life, LowerBound, life_keys
 from wearsim.result.ends import CHAIN, before_wear
 from wearsim.result.lives import hours, service_measures
@@ -95,7 +95,7 @@ def _stop(plan: DrivePlan, stop: Stop) -> dict[str, Any]:
     }
 
 
-def plan_text(plan: DrivePlan, source: str) -> str:
+def plan_text(plan: DrivePlan, explain: bool = False) -> str:
     """Return the plan as ``wearsim maintain`` prints it."""
     lives = ", ".join(_life(plan, name, life) for name, life in plan.lives.items())
     rows = [
@@ -103,8 +103,7 @@ def plan_text(plan: DrivePlan, source: str) -> str:
         Finding("Replace", rule_text(plan.best)),
         Finding("Stops", f"{plan.best.name}: {_stops(plan, plan.best)}"),
         *(Finding("Not known", text) for text in _not_known(plan)),
-        Finding("Assumes", f"{'; '.join(plan.conventions)}; all else: wearsim check {source}"),
-        Finding("Warnings", "; ".join(plan.found.warnings) or "none"),
+        *closing((*plan.conventions, *plan.drive.assumptions), plan.found.warnings, explain),
     ]
     return answer_text(plan.drive.title, Finding("Lives", lives), _table(plan), *rows)
 

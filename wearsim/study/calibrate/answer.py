@@ -69,6 +69,11 @@ class CalibrationResult(DrawnAnswer):
         return calibration_text(self.found)
 
     @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        return calibration_text(self.found, explain=True)
+
+    @property
     def case(self) -> Case | DriveCase:
         """The case, or the whole drive, with the fitted values."""
         return loaded(self.found.tables)

@@ -14,7 +14,7 @@ from wearsim.study.calibrate.least_squares import ConfidenceInterval
 from wearsim.study.calibrate.observations import ReadingResidual
 
 
-def calibration_text(found: Calibration) -> str:
+def calibration_text(found: Calibration, explain: bool = False) -> str:
     """Return the answer as ``wearsim calibrate`` prints it."""
     share = f"{100 * found.options.confidence:g} %"
     rows = []
@@ -52,7 +52,7 @@ def calibration_text(found: Calibration) -> str:
             Finding("Moved", f"profile of line {line} by {turn:.3g} rad, {x:.3g} and {y:.3g} mm")
             for line, turn, x, y in found.moves
         ),
-        *closing(found.assumptions, found.warnings),
+        *closing(found.assumptions, found.warnings, explain),
     ]
     return answer_text(found.case.title, *rows)
 
@@ -135,7 +135,7 @@ def calibration_files(found: Calibration) -> dict[str, str]:
     return {
         "fit.csv": readings_table(found).csv(),
         "fitted_values.csv": values_table(found).csv(),
-        "summary.md": fenced(calibration_text(found)),
+        "summary.md": fenced(calibration_text(found, explain=True)),
         "calibrated.toml": _case(found),
     }
 

@@ -61,6 +61,11 @@ class JudgementResult(DrawnAnswer):
         return judgement_text(self.found)
 
     @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        return judgement_text(self.found, explain=True)
+
+    @property
     def laws(self) -> "pd.DataFrame":
         """A row for each law and kind of scatter: its score, its bands, whether it is told from the best."""
         return laws_table(self.found).frame()

@@ -18,7 +18,7 @@ ASSUMPTIONS = (
 )
 
 
-def judgement_text(found: Judgement) -> str:
+def judgement_text(found: Judgement, explain: bool = False) -> str:
     """Return the answer as ``wearsim judge`` prints it."""
     data, taken = found.data, found.simplest
     held = int(data.held_out.sum())
@@ -30,7 +30,7 @@ def judgement_text(found: Judgement) -> str:
         *([Finding("Constants", "; ".join(map(_constant, taken.constants)))] if taken.constants else []),
         Finding("Scatter", "; ".join(map(_constant, taken.deviations)) + ", of ln(wear)"),
         Finding("Verdict", verdict(found)),
-        *closing(ASSUMPTIONS, data.warnings),
+        *closing(ASSUMPTIONS, data.warnings, explain),
     ]
     return answer_text(*rows, "", laws_table(found))
 
@@ -136,5 +136,5 @@ def judgement_files(found: Judgement) -> dict[str, str]:
         "laws.csv": laws_table(found).csv(),
         "constants.csv": csv_of(constants_table(found)),
         "forecasts.csv": csv_of(forecasts_table(found)),
-        "summary.md": fenced(judgement_text(found)),
+        "summary.md": fenced(judgement_text(found, explain=True)),
     }

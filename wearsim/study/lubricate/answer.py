@@ -53,6 +53,11 @@ class LubricationResult(DrawnAnswer):
         return lubrication_text(self.study)
 
     @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        return lubrication_text(self.study, explain=True)
+
+    @property
     def intervals(self) -> "pd.DataFrame":
         """A row for each lubricant and interval: lives with their bands, cost per 1000 h."""
         return table_of(policy_rows(self.study))

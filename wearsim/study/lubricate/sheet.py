@@ -89,12 +89,12 @@ def _plan_json(plan: LubricantPlan) -> dict[str, Any]:
     }
 
 
-def lubrication_text(study: LubricationStudy) -> str:
+def lubrication_text(study: LubricationStudy, explain: bool = False) -> str:
     """Return the study as ``wearsim lubricate`` prints it."""
     parts: list[object] = [study.title]
     for plan in study.plans:
         parts += ["", *_plan_parts(study, plan)]
-    return answer_text(*parts, "", *_pays(study), *closing(study.assumptions, study.warnings))
+    return answer_text(*parts, "", *_pays(study), *closing(study.assumptions, study.warnings, explain))
 
 
 def _pays(study: LubricationStudy) -> Iterator[Finding]:

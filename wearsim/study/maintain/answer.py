@@ -39,14 +39,11 @@ class MaintenanceResult(DrawnAnswer):
     ----------
     plan : MaintenancePlan or DrivePlan
         Of one sprocket, or of a whole drive.
-    source : str
-        What the case was given as, which the text names; empty where it was no file.
     """
 
     _tables = ("policies", "tooth_counts", "parts", "schedule")
 
     plan: MaintenancePlan | DrivePlan
-    source: str = ""
 
     @property
     def title(self) -> str:
@@ -68,7 +65,14 @@ class MaintenanceResult(DrawnAnswer):
         """What ``wearsim maintain`` prints."""
         if isinstance(self.plan, MaintenancePlan):
             return maintenance_text(self.plan)
-        return plan_text(self.plan, self.source or self.plan.drive.name)
+        return plan_text(self.plan)
+
+    @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        if isinstance(self.plan, MaintenancePlan):
+            return maintenance_text(self.plan, explain=True)
+        return plan_text(self.plan, explain=True)
 
     @property
     def policies(self) -> "pd.DataFrame":
@@ -117,7 +121,7 @@ class MaintenanceResult(DrawnAnswer):
     def _files(self) -> Mapping[str, str]:
         if isinstance(self.plan, MaintenancePlan):
             return maintenance_files(self.plan)
-        return plan_files(self.plan, self.text)
+        return plan_files(self.plan, self.explained)
 
 
 @overload
@@ -190,4 +194,4 @@ def maintain(
     if isinstance(found, Case):
         found.drive.check(found)
         return MaintenanceResult(compare_policies(found, lambda done, of: progress(done / of)))
-    return MaintenanceResult(drive_plan(drive_life(found, progress).complete()), source)
+    return MaintenanceResult(drive_plan(drive_life(found, progress).complete()))

@@ -73,5 +73,5 @@ def maintain(
             )
             shown.save(replace(year, source=str(case)), case)
             return
-        found = replace(answer.maintain(loaded, progress=progress), source=str(case))
+        found = answer.maintain(loaded, progress=progress)
     shown.save(found, case)

@@ -70,12 +70,12 @@ def maintenance_json(plan: MaintenancePlan) -> dict[str, Any]:
     }
 
 
-def maintenance_text(plan: MaintenancePlan) -> str:
+def maintenance_text(plan: MaintenancePlan, explain: bool = False) -> str:
     """Return the plan as ``wearsim maintain`` prints it."""
     parts: list[object] = [plan.title, policies_table(plan), *(f"  {text}" for text in _answers(plan))]
     if plan.counts:
         parts += ["", _counts_title(plan), counts_table(plan)]
-    return answer_text(*parts, "", *closing((*_notes(plan), *plan.assumptions), plan.warnings))
+    return answer_text(*parts, "", *closing((*_notes(plan), *plan.assumptions), plan.warnings, explain))
 
 
 def maintenance_page(plan: MaintenancePlan) -> str:

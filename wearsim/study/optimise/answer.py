@@ -69,6 +69,11 @@ class OptimiseResult(DrawnAnswer):
         return optimise_text(self.outcome)
 
     @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        return optimise_text(self.outcome, explain=True)
+
+    @property
     def cases(self) -> list[Case | DriveCase]:
         """The best designs as cases, in the order of ``designs``."""
         return self.outcome.cases

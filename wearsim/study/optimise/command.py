@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, overrides, print_json, show, warn
+from wearsim.command.options import common_options, explain_option, overrides, print_json, show, warn
 from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import in_batches, timed
 
@@ -28,11 +28,18 @@ if TYPE_CHECKING:
     "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Seed of the random search."
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@explain_option
 @study_options
 @overrides
 @common_options
 def optimise(
-    case: Path, evaluations: int, seed: int, as_json: bool, options: StudyOptions, settings: tuple[str, ...]
+    case: Path,
+    evaluations: int,
+    seed: int,
+    as_json: bool,
+    explain: bool,
+    options: StudyOptions,
+    settings: tuple[str, ...],
 ) -> int:
     """Find the best designs of CASE (.toml) among those that its table [optimise] allows.
 
@@ -70,7 +77,7 @@ def optimise(
     if as_json:
         print_json(optimise_json(outcome), case, optimise_warnings(outcome))
     else:
-        show(optimise_text(outcome))
+        show(optimise_text(outcome, explain))
     if options.out is not None:
         write_optimise(outcome, options.out)
         warn(f"written to {options.out}")

@@ -50,7 +50,7 @@ class OptimiseStudy:
         each = [(*self._of_measures(case), *case.assumptions) for case in cases]
         shared = [text for text in each[0] if all(text in other for other in each[1:])]
         if any(len(texts) > len(shared) for texts in each):
-            shared.append("more that differs from design to design: `wearsim check designs/01.toml` tells it")
+            shared.append("more that differs from design to design: `wearsim check --explain designs/01.toml` lists it")
         return tuple(shared)
 
     def _of_measures(self, case: Case | DriveCase) -> list[str]:

@@ -130,7 +130,7 @@ def _of_designs(outcome: OptimiseOutcome) -> list[str]:
     return [first if count == 1 else f"{first} (and of {count - 1} more designs)" for first, count in counts]
 
 
-def optimise_text(outcome: OptimiseOutcome) -> str:
+def optimise_text(outcome: OptimiseOutcome, explain: bool = False) -> str:
     """Return the best designs as text."""
     study, front = outcome.study, outcome.front
     kind = "best design" if len(study.objectives) == 1 else f"front of {len(front)} designs"
@@ -144,7 +144,7 @@ def optimise_text(outcome: OptimiseOutcome) -> str:
     lines.append(f"tried        {len(outcome.candidates)} designs, {len(failed)} not feasible")
     if failed:
         lines.append(f"             {commonest_reason(study, failed)}")
-    lines += closing_lists(study.assumptions(outcome.cases), optimise_warnings(outcome))
+    lines += closing_lists(study.assumptions(outcome.cases), optimise_warnings(outcome), explain)
     return "\n".join(lines)
 
 
@@ -223,7 +223,7 @@ def write_optimise(outcome: OptimiseOutcome, folder: Path) -> None:
 
     texts = {
         "front.csv": candidates_table(outcome, outcome.front).csv(),
-        "summary.md": f"# {outcome.study.case.title}\n\n{optimise_text(outcome)}\n",
+        "summary.md": f"# {outcome.study.case.title}\n\n{optimise_text(outcome, explain=True)}\n",
     }
     save_files(folder, texts)
     save_figures(folder, outcome.study.case.title, optimise_figures(outcome))

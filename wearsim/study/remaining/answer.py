@@ -65,6 +65,11 @@ class RemainingResult(Answer):
         return remaining_text(self.found, self.case.inputs)
 
     @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        return remaining_text(self.found, self.case.inputs, explain=True)
+
+    @property
     def life(self) -> Life | LowerBound:
         """The life from new."""
         return self.found.life

@@ -52,6 +52,11 @@ class ChainReadingsResult(DrawnAnswer):
         return chain_text(self.found)
 
     @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        return chain_text(self.found, explain=True)
+
+    @property
     def intervals(self) -> "pd.DataFrame":
         """A row for each quantity with its quantiles ``p05``, ``p25``, ``p50``, ``p75``, ``p95``."""
         return intervals_table(self.found).frame()

@@ -25,7 +25,7 @@ _WORDS = {
 }
 
 
-def chain_text(found: ChainState) -> str:
+def chain_text(found: ChainState, explain: bool = False) -> str:
     """Return the answer as ``wearsim remaining`` prints it with a table of readings."""
     left = found.of("remaining_hours")
     of_which, today = _chain(found), grouped(found.log.today)
@@ -40,7 +40,7 @@ def chain_text(found: ChainState) -> str:
         *_chains(found),
         Finding("Readings", counted_readings(found)),
         *starmap(Finding, relubrication_rows(found.log.relubrications)),
-        *closing(found.assumptions, found.warnings),
+        *closing(found.assumptions, found.warnings, explain),
     ]
     return answer_text(found.case.title, *rows)
 
@@ -150,7 +150,7 @@ def chain_files(found: ChainState) -> dict[str, str]:
         "intervals.csv": intervals_table(found).csv(),
         "readings.csv": readings_table(found).csv(),
         **({"chains.csv": chains_table(found).csv()} if found.log.rotation else {}),
-        "summary.md": fenced(chain_text(found)),
+        "summary.md": fenced(chain_text(found, explain=True)),
     }
 
 

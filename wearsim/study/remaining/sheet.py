@@ -18,7 +18,7 @@ _WORDS = {
 }
 
 
-def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
+def remaining_text(found: RemainingLife, inputs: Mapping[str, Any], explain: bool = False) -> str:
     """Return the answer as ``wearsim remaining`` prints it."""
     reading = found.reading
     band = f"{hours(found.remaining_low)} to {hours(found.remaining_high)}"
@@ -36,7 +36,7 @@ def remaining_text(found: RemainingLife, inputs: Mapping[str, Any]) -> str:
             f"{found.coefficient:.4g}, {found.factor:.3g} times the case's, which would show the reading "
             f"after {grouped(found.model_hours)} h",
         ),
-        *closing(found.assumptions, found.warnings),
+        *closing(found.assumptions, found.warnings, explain),
     ]
     return answer_text(found.title, *rows)
 

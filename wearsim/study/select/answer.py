@@ -63,6 +63,11 @@ class SelectionResult(Answer):
         return selection_text(self.answer)
 
     @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        return selection_text(self.answer, explain=True)
+
+    @property
     def drives(self) -> "pd.DataFrame":
         """A row for each drive that passes, the lightest or cheapest first; empty where none does."""
         return drives_table(self.answer.shown).frame()

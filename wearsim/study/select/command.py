@@ -12,6 +12,7 @@ from wearsim.command.options import (
     FAILED,
     common_options,
     error_json,
+    explain_option,
     keeping_runs,
     print_json,
     warn,
@@ -164,6 +165,7 @@ def _requirement_options(function: _Function) -> _Function:
 )
 @click.option("--force", is_flag=True, help="Replace existing files.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@explain_option
 @keeping_runs
 @common_options
 def select(
@@ -175,6 +177,7 @@ def select(
     csv_file: Path | None,
     force: bool,
     as_json: bool,
+    explain: bool,
     **texts: str | None,
 ) -> int:
     """Choose chains and teeth of the catalogue for a drive.
@@ -201,7 +204,7 @@ def select(
         # A file on stdout leaves stderr for the table.
         on_stdout = "-" in (str(out), str(csv_file))
         (warn if on_stdout else click.echo)(
-            "\n".join([selection_text(answer), *map(_verified_text, verified)])
+            "\n".join([selection_text(answer, explain), *map(_verified_text, verified)])
         )
     if not answer.shown:
         warn("select: a drive must keep to all limits, but none does: see what refuses them")

@@ -57,7 +57,7 @@ def case_text(tables: dict[str, Any], command: str) -> str:
     import tomlkit
 
     text = tomlkit.dumps(tables)
-    return f"# Chosen by {command}\n# All that it assumes: wearsim check, with this file.\n{text}"
+    return f"# Chosen by {command}\n# Its assumptions: wearsim check --explain, with this file.\n{text}"
 
 
 def _digits(value: float) -> float:

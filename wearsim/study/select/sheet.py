@@ -9,7 +9,7 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column
-from wearsim.report.text_lines import Finding, answer_text, numbered_assumptions
+from wearsim.report.text_lines import Finding, answer_text, assumed
 from wearsim.study.select.considered_chains import ConsideredChains, considered_chains
 from wearsim.study.select.model import LEAST_WRAP, SAG, CandidateDrive, judged_drives
 from wearsim.study.select.ranking import best_of_each_chain, nearest_miss, ranked, refused_by
@@ -119,7 +119,7 @@ def selection_json(answer: SelectionAnswer) -> dict[str, Any]:
     }
 
 
-def selection_text(answer: SelectionAnswer) -> str:
+def selection_text(answer: SelectionAnswer, explain: bool = False) -> str:
     """Return what ``wearsim select`` prints."""
     need = answer.need
     drive = f"{need.power:g} kW at {need.speed:g} rpm, ratio {need.ratio:g}"
@@ -133,7 +133,7 @@ def selection_text(answer: SelectionAnswer) -> str:
     parts.append(Finding("Refused", _refused(answer)))
     if answer.considered.skipped:
         parts.append(Finding("Left out", _skipped(answer.considered.skipped)))
-    return answer_text(*parts, Finding("Assumes", numbered_assumptions(_assumptions(answer))))
+    return answer_text(*parts, assumed(_assumptions(answer), explain))
 
 
 def _span(drive: CandidateDrive) -> str:

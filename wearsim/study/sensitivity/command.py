@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, overrides, print_json, show, warn, working
+from wearsim.command.options import common_options, explain_option, overrides, print_json, show, warn, working
 from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import run
 
@@ -37,6 +37,7 @@ def _power_of_two(context: click.Context, parameter: click.Parameter, value: int
     "--seed", type=click.IntRange(min=0), default=1, show_default=True, help="Seed of the random samples."
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@explain_option
 @study_options
 @overrides
 @common_options
@@ -46,6 +47,7 @@ def sensitivity(
     trajectories: int,
     seed: int,
     as_json: bool,
+    explain: bool,
     options: StudyOptions,
     settings: tuple[str, ...],
 ) -> int:
@@ -82,7 +84,7 @@ def sensitivity(
     if as_json:
         print_json(sensitivity_json(answer), case, answer.warnings)
     else:
-        show(sensitivity_text(answer))
+        show(sensitivity_text(answer, explain))
     if options.out is not None:
         write_sensitivity(answer, table, options.out)
         warn(f"written to {options.out}")

@@ -77,7 +77,7 @@ def sensitivity_table(answer: SensitivityAnswer) -> AnswerTable[KeyEffect]:
     )
 
 
-def sensitivity_text(answer: SensitivityAnswer) -> str:
+def sensitivity_text(answer: SensitivityAnswer, explain: bool = False) -> str:
     """Return what matters as text."""
     scattered = answer.study.scattered
     width = max(len(key) for key in scattered.keys)
@@ -108,7 +108,7 @@ def sensitivity_text(answer: SensitivityAnswer) -> str:
     lines += ["", "what scatters:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in scattered.scatters]
     assumptions = [*scattered.assumptions, *scattered.case.assumptions]
-    lines += closing_lists(assumptions, [*answer.warnings, *scattered.case.warnings])
+    lines += closing_lists(assumptions, [*answer.warnings, *scattered.case.warnings], explain)
     if only_coefficients(scattered.case, scattered.keys):
         lines += ["", _OFFER, "", "[uncertainty]", *usual_scatters(scattered.case)]
     return "\n".join(lines)
@@ -133,7 +133,7 @@ def write_sensitivity(answer: SensitivityAnswer, table: pd.DataFrame, folder: Pa
     texts = {
         "cases.csv": table.to_csv(index=False),
         "sensitivity.csv": sensitivity_table(answer).csv(),
-        "summary.md": fenced(sensitivity_text(answer)),
+        "summary.md": fenced(sensitivity_text(answer, explain=True)),
     }
     save_files(folder, texts)
     save_figures(folder, answer.study.scattered.case.title, {"tornado": tornado(answer)})

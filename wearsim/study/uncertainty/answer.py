@@ -56,6 +56,11 @@ class UncertaintyResult(DrawnAnswer):
         return uncertainty_text(self.answer)
 
     @property
+    def explained(self) -> str:
+        """The text with every assumption and default."""
+        return uncertainty_text(self.answer, explain=True)
+
+    @property
     def samples(self) -> pd.DataFrame:
         """A row for each sample: its values, life, what ended it."""
         return self.answer.table

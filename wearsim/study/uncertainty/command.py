@@ -10,6 +10,7 @@ from wearsim.command.complete import CasePath
 from wearsim.command.options import (
     NOT_MET,
     common_options,
+    explain_option,
     finite,
     overrides,
     print_json,
@@ -60,6 +61,7 @@ _ROUNDING = 1e-9
     help="Repeat the fits with the library reliability (pip install 'wearsim[crosscheck]').",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@explain_option
 @study_options
 @overrides
 @common_options
@@ -71,6 +73,7 @@ def uncertainty(
     require_hours: float | None,
     cross_check: bool,
     as_json: bool,
+    explain: bool,
     options: StudyOptions,
     settings: tuple[str, ...],
 ) -> int:
@@ -101,7 +104,7 @@ def uncertainty(
     if as_json:
         print_json(uncertainty_json(answer), case, uncertainty_warnings(answer))
     else:
-        show(uncertainty_text(answer))
+        show(uncertainty_text(answer, explain))
     if options.out is not None:
         write_uncertainty(answer, options.out)
         warn(f"written to {options.out}")

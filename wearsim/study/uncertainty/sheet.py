@@ -17,7 +17,7 @@ from wearsim.study.uncertainty.model import UncertaintyStudy
 from wearsim.study.uncertainty.percentiles import B10, CONFIDENCE, DistributionFit, Percentile
 
 
-def uncertainty_text(answer: UncertaintyAnswer) -> str:
+def uncertainty_text(answer: UncertaintyAnswer, explain: bool = False) -> str:
     """Return percentiles, what they rest on, and fits, as text."""
     study = answer.study
     lines = [study.scattered.case.title, ""]
@@ -38,7 +38,7 @@ def uncertainty_text(answer: UncertaintyAnswer) -> str:
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in study.scattered.scatters]
     lines += ["", "percentiles of the first samples, h:"]
     lines += [f"  {line}" for line in _columns(answer.convergence)]
-    lines += closing_lists(_assumptions(study), uncertainty_warnings(answer))
+    lines += closing_lists(_assumptions(study), uncertainty_warnings(answer), explain)
     return "\n".join(lines)
 
 
@@ -94,7 +94,7 @@ def write_uncertainty(answer: UncertaintyAnswer, folder: Path) -> None:
     texts = {
         "cases.csv": answer.table.to_csv(index=False),
         "convergence.csv": answer.convergence.to_csv(index=False),
-        "summary.md": fenced(uncertainty_text(answer)),
+        "summary.md": fenced(uncertainty_text(answer, explain=True)),
     }
     save_files(folder, texts)
     save_figures(folder, answer.study.scattered.case.title, uncertainty_figures(answer))
