@@ -127,7 +127,7 @@ def test_the_answer_takes_twelve_lines(name: str, setting: str | None) -> None:
     assert ("OVERLOADED: " in ratings) == bool(found.overloaded)
     if name == "bicycle-cassette":
         # 33 333.33 + 1234.567 h and so on: 34 567.9, 35 802.5, 37 037.0 up to 46 913.6 h.
-        eleven = "11T dies first at 34 570 h, then 12T at 35 800 h; 9 more, 37 040 h to 46 910 h"
+        eleven = "11T fails first, at 34 570 h, then 12T at 35 800 h; 9 more, 37 040 h to 46 910 h"
         assert f"  cassette   {eleven}" in lines
     if setting is not None:
         assert re.search(r"OVERLOADED: [a-z ]+ \(indicative\) [\d ]+\.?\d* % and \d more; ", ratings)

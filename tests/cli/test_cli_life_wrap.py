@@ -136,7 +136,7 @@ def test_chain_ends_first(cli, wrapped, conforms):
     assert 0.0 < found["critical_depth_mm"][1] < 0.03
     assert line["max_depth_mm"] == pytest.approx(0.03, rel=1e-9)
     text = " ".join(cli("life", wrapped, *FAST_CHAIN).out.split())
-    assert "until the chain has grown by 1 %" in text
+    assert "until the chain elongation reaches 1 %" in text
     chains = int(re.search(r"with (\d+) chains, each replaced at its limit", text)[1])
     assert chains == int(line["sprocket_life_hours"] / line["chain_life_hours"]) + 1
 

@@ -163,7 +163,7 @@ def test_table(cli, case):
     assert (done.code, done.err) == (0, "")
     lines = done.out.splitlines()
     assert lines[0] == (
-        "ANSI 40: 10 rollers in a wrap of 180.0 degrees, elongation 2 %, phase 1, any link after tooth 1"
+        "ANSI 40: 10 rollers, wrap angle 180.0 degrees, elongation 2 %, phase 1, any link after tooth 1"
     )
     assert max(map(len, lines)) <= 107
     rows = [line.split() for line in lines[3:13]]
@@ -172,7 +172,7 @@ def test_table(cli, case):
     assert [float(row[1]) for row in rows] == pytest.approx(tension, abs=0.6)
     assert float(rows[0][4]) == pytest.approx(19.8, abs=0.06)
     assert float(rows[0][5]) == pytest.approx(0.823, abs=1e-3)
-    assert "slack strand 20 N" in lines[-2]
+    assert "slack span 20 N" in lines[-2]
     assert lines[-1] == "  Assumes    7 assumptions and 25 defaults: --explain shows them"
     assert "roller positions minimise" in cli("loads", case, "--explain").out
 

@@ -193,7 +193,7 @@ def test_none_is_the_cheapest_while_a_life_is_not_reached() -> None:
     applied, supplied = found.plans
     assert applied.cheapest is not None and supplied.cheapest is None
     assert found.cheapest is None
-    assert "Pays not told, as no least cost is known for drip (the life" in " ".join(
+    assert "Pays not known, as there is no least cost for drip (the life" in " ".join(
         lubrication_text(found).split()
     )
 

@@ -75,7 +75,7 @@ def test_a_better_case_as_given_and_too_few_trials_are_told(cli, case):
     found = answer(cli, case(narrow))
     assert any("the case as given has a better life_hours" in text for text in found["warnings"])
     two = WIDTH + '"sprocket.evolute_offset_mm" = {low = 5.5, high = 6.0}\n'
-    ended = "the search was ended by --evaluations"
+    ended = "the search ended at --evaluations"
     assert any(ended in text for text in answer(cli, case(two))["warnings"])
     enough = answer(cli, case(WIDTH), evaluations=400)
     assert enough["evaluations"] < 400

@@ -263,7 +263,7 @@ def test_a_case_that_fails_is_left_out(cli, drive, tmp_path, monkeypatch):
 
 
 def test_page_of_a_table_of_loads(cli, tmp_path):
-    """Where loads come from a table nothing is known of a drive, and nothing is drawn of it."""
+    """Where loads come from a table no life is known of a drive, and nothing is drawn of it."""
     case = Path(__file__).parents[2] / "cases" / "hertz-arc-prescribed.toml"
     out = tmp_path / "out"
     assert cli("report", case, "--out", out).code == 0

@@ -412,7 +412,7 @@ def test_cogs_of_a_cassette_share_a_line(cli, four_cogs):
     assert len(lines) <= 12
     cassette = next(line for line in lines if line.startswith("  cassette "))
     assert cassette.startswith("  cassette   13T ")
-    assert cassette.endswith("17T and 19T > 4 000 h: 13T dies first")
+    assert cassette.endswith("17T and 19T > 4 000 h: 13T fails first")
     assert " ".join(done.out.split()).endswith(f"Next wearsim report {four_cogs} --out sheet.html")
 
 

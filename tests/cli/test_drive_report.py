@@ -291,7 +291,7 @@ def test_the_command_writes_a_file_or_a_folder(cli, tmp_path):
     assert (found["project"], found["author"]) == ("P & Q", "<me>")
     assert found["date"] in (str(date.today()), str(date.today() - timedelta(days=1)))
     assert "drawing" not in found
-    assert "&gt; 2 h" in text and "nothing is to be replaced within 2 h" in text
+    assert "&gt; 2 h" in text and "no replacement is due within 2 h" in text
     rows = tables(text)["Lives"][1:]
     assert [row[0] for row in rows] == ["chain", "motor", "tensioner", "cassette 20T", "cassette 22T"]
     assert {row[1] for row in rows} == {"> 2 h"}

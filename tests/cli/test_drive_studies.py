@@ -81,7 +81,7 @@ def test_uncertainty_says_which_part_ends_first(cli, drive, tmp_path):
     assert set(found["inputs"]) == {"wear.specific_wear_rate_mm2_per_N", "joint.specific_wear_rate_mm2_per_N"}
     text = (out / "summary.md").read_text()
     assert "ends first   chain in 100 %" in text
-    assert "roll beyond the run" in text
+    assert "roll not reached" in text
 
 
 def test_one_wear_for_all_is_needed_to_scatter(cli, drive):

@@ -160,7 +160,7 @@ def test_events_follow_the_plan(dry):
     events = planned_events(drive_plan(dry))
     (event,) = (one for one in events if one.part == "chain" and "replace" in one.event)
     assert event.hours == a
-    assert event.event.startswith("replace it; grown by 3 % at ")
+    assert event.event.startswith("replace it; elongation 3 % at ")
 
 
 def test_a_short_run_contradicts_no_rule():

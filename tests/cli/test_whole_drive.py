@@ -77,7 +77,7 @@ def test_a_chain_that_is_not_worn_out_says_so_everywhere(cli, drive, tmp_path):
     """Joints wear at a constant rate: half way through its life a chain has grown by half of its limit."""
     until = ("--set", f"run.horizon_hours={lives(cli, drive)['chain'] / 2}")
     line = cli("life", drive, *until).out.splitlines()[1]
-    assert line.startswith("  Chain      > ") and line.endswith("not yet grown by 3 %")
+    assert line.startswith("  Chain      > ") and line.endswith("elongation below 3 %")
     content = json.loads(cli("life", drive, *until, "--json").out)
     assert content["chain_life_hours"] is None
     for one in content["sprockets"]:
@@ -85,7 +85,7 @@ def test_a_chain_that_is_not_worn_out_says_so_everywhere(cli, drive, tmp_path):
         assert (grown["limit"], grown["value"]) == (3.0, pytest.approx(1.5, rel=1e-9))
     text = (tmp_path / "sheet.html", *until)
     assert cli("report", drive, "--out", *text).code == 0
-    assert "not yet grown by 3 %" in text[0].read_text()
+    assert "elongation below 3 %" in text[0].read_text()
 
 
 @pytest.mark.parametrize(

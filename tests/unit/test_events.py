@@ -26,21 +26,23 @@ def told(ends, inputs=None, grown=(0.0, 1.0, 2.0), limit=3.0, replaced=None):
 
 def elongations(*arguments, **options):
     return [
-        (hours, text[:12]) for hours, _, text in told(*arguments, **options) if text.startswith("grown by 1")
+        (hours, text[:14])
+        for hours, _, text in told(*arguments, **options)
+        if text.startswith("elongation 1")
     ]
 
 
 def test_an_elongation_that_the_run_did_not_reach_is_no_event():
     bound = PartEnd("chain", "joint wear", 2400.0, reached=False)
-    assert elongations([bound], grown=(0.0, 0.5, 1.2)) == [(2000.0, "grown by 1 %")]
+    assert elongations([bound], grown=(0.0, 0.5, 1.2)) == [(2000.0, "elongation 1 %")]
     assert elongations([bound], grown=(0.0, 0.577)) == []
-    assert elongations([WORN]) == [(2000.0, "grown by 1 %"), (3000.0, "grown by 1.5")]
+    assert elongations([WORN]) == [(2000.0, "elongation 1 %"), (3000.0, "elongation 1.5")]
 
 
 def test_what_ends_the_chain_before_wear_is_an_event():
     """Impact ends it at 2500 h: it is never grown by 1.5 % (3000 h), nor by 3 % (6000 h)."""
     assert [one for one in told([IMPACT, WORN]) if one[0] > 20.0] == [
-        (2000.0, "chain", "grown by 1 %"),
+        (2000.0, "chain", "elongation 1 %"),
         (2500.0, "chain", "roller and bush impact: at its end"),
     ]
 
@@ -48,11 +50,11 @@ def test_what_ends_the_chain_before_wear_is_an_event():
 def test_parts_are_replaced_as_planned():
     found = told([WORN, TEETH], replaced={"chain": 6000.0, "a": 18_000.0})
     assert found[-2:] == [
-        (6000.0, "chain", "grown by 3 %: replace it"),
+        (6000.0, "chain", "elongation 3 %: replace it"),
         (18_000.0, "a", "replace it; teeth worn to their limit at 20 000 h"),
     ]
     assert told([WORN, TEETH])[-2:] == [
-        (6000.0, "chain", "grown by 3 %: worn out"),
+        (6000.0, "chain", "elongation 3 %: worn out"),
         (20_000.0, "a", "teeth worn to their limit: worn out"),
     ]
 

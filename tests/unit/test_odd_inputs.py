@@ -69,7 +69,7 @@ def test_life_in_which_nothing_wears_is_told(case):
     )
     assert abs(result.removed_area) < 1e-11
     removed = dict(findings(result))["Removed"]
-    assert removed == "less than the coordinates of the flank can tell"
+    assert removed == "below the resolution of the flank coordinates"
 
 
 def edited(folder, *rows):

@@ -24,7 +24,7 @@ _SHORTEST_S = 0.02
 """Time that a frame stays at least: readers of GIF show shorter ones longer."""
 
 
-@click.command(short_help="Animation of the flank as it wears.")
+@click.command(short_help="Animate the flank as it wears.")
 @click.argument("source", type=RunPath(path_type=Path), metavar="CASE_OR_RUN")
 @click.option(
     "--out",

@@ -5,7 +5,7 @@ import click
 from wearsim.command.options import common_options
 
 
-@click.command(short_help="How to cite wearsim and the sources of its equations.")
+@click.command(short_help="Print how to cite wearsim and its sources.")
 @click.option(
     "--format",
     "style",

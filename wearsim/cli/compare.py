@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from wearsim.result import WearResult
 
 
-@click.command(short_help="Compare cases: tables and pictures.")
+@click.command(short_help="Compare cases in tables and pictures.")
 @click.argument("sources", nargs=-1, required=True, type=RunPath(path_type=Path), metavar="CASE_OR_RUN...")
 @click.option("--out", type=click.Path(path_type=Path), help="New folder for tables and pictures.")
 @workbook_option
@@ -95,5 +95,5 @@ def _check_alike(loaded: "Iterable[Case | DriveCase | WearResult | DriveLife]") 
     if len(set(map(is_drive, loaded))) > 1:
         raise click.UsageError(
             "whole drives are compared by their parts, single sprockets and gears by their flanks: compare "
-            "them apart"
+            "them separately"
         )

@@ -55,7 +55,7 @@ def _joined(words: list[str]) -> list[str]:
     return found
 
 
-@click.command(help=_HELP, short_help="Shell completion for bash, zsh and fish.")
+@click.command(help=_HELP, short_help="Print the completion script for bash, zsh or fish.")
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
 @common_options
 def completion(shell: str) -> None:

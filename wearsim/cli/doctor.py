@@ -65,7 +65,7 @@ def _guarded(name: str, look: Callable[[], InstallationCheck]) -> InstallationCh
         return look()
     except Exception as error:
         text = f"{type(error).__name__}: {error}".splitlines()[0]
-        return InstallationCheck(name, "failed", text, "install wearsim anew in a fresh virtual environment")
+        return InstallationCheck(name, "failed", text, "reinstall wearsim in a new virtual environment")
 
 
 def _python() -> InstallationCheck:
@@ -103,13 +103,13 @@ def _cache() -> InstallationCheck:
 
     name, folder = "cache of kernels", cache_folder()
     if folder is None:
-        advice = "every start compiles anew: set NUMBA_CACHE_DIR to a folder that can be written"
-        return InstallationCheck(name, "failed", "no folder can be written", advice)
+        advice = "every start compiles again: set NUMBA_CACHE_DIR to a writable folder"
+        return InstallationCheck(name, "failed", "no writable folder", advice)
     files = [path for path in folder.rglob("*") if path.is_file()]
     size = sum(path.stat().st_size for path in files) / 1e6
     found = f"{folder}: {len(files)} files, {size:.1f} MB"
     if folder.is_relative_to(tempfile.gettempdir()) and not os.environ.get("NUMBA_CACHE_DIR"):
-        advice = "lost with the temporary folder: make the cache folder of your home writable"
+        advice = "lost with the temporary folder: make the cache folder in your home directory writable"
         return InstallationCheck(name, "note", found, advice)
     return InstallationCheck(name, "ok", found)
 
@@ -129,14 +129,14 @@ def _self_test(case: Path | None) -> InstallationCheck:
     name = "self-test"
     if case is None:
         text = "the shipped case hertz-arc-prescribed.toml is missing"
-        return InstallationCheck(name, "failed", text, "install wearsim anew: files are missing")
+        return InstallationCheck(name, "failed", text, "reinstall wearsim: files are missing")
     start = time.perf_counter()
     cycles = wearsim.simulate(wearsim.load_case(case)).cycles
     seconds = time.perf_counter() - start
     error = abs(cycles / KNOWN_CYCLES - 1.0)
     found = f"a life of {cycles:.0f} cycles in {seconds:.2g} s, {KNOWN_CYCLES:.0f} is right"
     if error > 1e-4:
-        advice = "trust no result of this machine: empty the cache of kernels, install wearsim anew"
+        advice = "do not trust results of this machine: delete the cache of kernels and reinstall wearsim"
         return InstallationCheck(name, "failed", found, advice)
     return InstallationCheck(name, "ok", found)
 
@@ -147,7 +147,7 @@ def _threads() -> InstallationCheck:
 
 
 def _temporary_folder() -> InstallationCheck:
-    advice = "set TMPDIR to a folder that can be written"
+    advice = "set TMPDIR to a writable folder"
     try:
         return _writable("temporary folder", Path(tempfile.gettempdir()), advice)
     except OSError as error:
@@ -155,7 +155,7 @@ def _temporary_folder() -> InstallationCheck:
 
 
 def _working_folder() -> InstallationCheck:
-    advice = "go to a folder that can be written, or name one by --out"
+    advice = "change to a writable folder, or name one with --out"
     try:
         return _writable("working folder", Path.cwd(), advice)
     except OSError as error:
@@ -217,5 +217,5 @@ def doctor(as_json: bool) -> int:
         click.echo(f"{one.state:<6}  {one.name:<{width}}  {one.found}")
         if one.advice:
             click.echo(f"{'':<6}  {'':<{width}}  -> {one.advice}")
-    click.echo(f"to be mended: {', '.join(failed)}" if failed else "all that is needed is in order")
+    click.echo(f"failed: {', '.join(failed)}" if failed else "all required components are working")
     return _NOT_IN_ORDER if failed else 0

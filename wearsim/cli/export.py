@@ -32,7 +32,7 @@ _FORMATS = tuple(WHEELS)
 _GAUGES = tuple(DRAWINGS)
 
 
-@click.command(short_help="Sprocket or gear for CAD, new or worn; wear-limit gauge.")
+@click.command(short_help="Export sprockets, gears or wear-limit gauges for CAD.")
 @click.argument("source", type=RunPath(path_type=Path), metavar="CASE_OR_RUN")
 @click.option(
     "--out",

@@ -31,7 +31,7 @@ _GONE = "0.4.0"
 
 
 @click.group(
-    cls=ExampleGroup, groups={"Commands": CALCULATIONS}, short_help="Gear calculations from handbooks."
+    cls=ExampleGroup, groups={"Commands": CALCULATIONS}, short_help="Calculate gears by handbook methods."
 )
 @common_options
 def handbook() -> None:

@@ -69,7 +69,7 @@ _SAFETY = {"strand": 10.0, "wrap": 20.0}
 """Breaking load over the pull of a starting case."""
 
 
-@click.command(short_help="A commented case to start from.")
+@click.command(short_help="Write a commented case to start from.")
 @drive_options
 @click.option("--teeth", type=int, help="Number of teeth of a single sprocket.  [default: 20]")
 @click.option(

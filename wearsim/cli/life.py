@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from wearsim.wear.accuracy import GridStudy
 
 
-@click.command(short_help="Service life in hours.")
+@click.command(short_help="Compute the service life in hours.")
 @click.argument("cases", nargs=-1, required=True, type=CasePath(path_type=Path), metavar="CASE...")
 @click.option(
     "--out", type=click.Path(path_type=Path), help="New folder for the result, its history and the flank."
@@ -67,7 +67,7 @@ if TYPE_CHECKING:
 @click.option(
     "--method",
     type=click.Choice(["advance", "per_cycle"]),
-    help="per_cycle: equations 10 to 13 of the source, cycle by cycle. Same as --set run.method=...",
+    help="Solution method: long controlled steps, or cycle by cycle (equations 10 to 13 of the source).",
 )
 @click.option("--verify-grid", is_flag=True, help="Repeat the run with a half and a quarter of the nodes.")
 @click.option(

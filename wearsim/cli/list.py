@@ -64,7 +64,7 @@ _COLUMNS: dict[str, dict[str, str]] = {
 """Columns of each table on the screen, with their headings; JSON has all of them, under their names."""
 
 
-@click.command("list", short_help="Chains, materials, wear conditions and laws, cases, quantities.")
+@click.command("list", short_help="List chains, materials, wear conditions, laws or cases.")
 @click.argument("table", type=click.Choice(tuple(_COLUMNS)))
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON array with all columns.")
 @common_options

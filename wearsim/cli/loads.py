@@ -19,7 +19,7 @@ from wearsim.command.options import (
 )
 
 
-@click.command(short_help="Link tension and tooth force along the wrap.")
+@click.command(short_help="Compute link tensions and tooth forces along the wrap.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--elongation",

@@ -48,7 +48,7 @@ def announce_compiling() -> None:
     cls=ExampleGroup,
     groups=COMMAND_GROUPS,
     help=_HELP,
-    short_help="Life of chain drives and gears by wear.",
+    short_help="Compute the wear life of chain drives and gears.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 @click.version_option(__version__, prog_name="wearsim")
@@ -106,13 +106,13 @@ def main() -> None:
 
 
 def _interrupted() -> int:
-    click.echo("interrupted: nothing half-written is left; run the same command again", err=True)
+    click.echo("interrupted: no partial files are left; run the same command again", err=True)
     return 130
 
 
 def _unexpected(error: Exception) -> int:
     if isinstance(error, OSError) and error.errno == errno.ENOSPC:
-        click.echo(f"output: must have room to be written: {error.strerror}", err=True)
+        click.echo(f"output: there must be disk space to write it: {error.strerror}", err=True)
         return BAD_INPUT
     click.echo(f"wearsim: this is a bug in wearsim: {type(error).__name__}: {error}", err=True)
     if "--debug" in sys.argv:

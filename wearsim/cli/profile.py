@@ -10,7 +10,7 @@ from wearsim.command.options import common_options, load_cases, overrides, sproc
 from wearsim.command.single_file import check_place
 
 
-@click.command(short_help="Points of the working flank as CSV.")
+@click.command(short_help="Write the points of the working flank as CSV.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--out",

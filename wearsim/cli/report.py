@@ -56,7 +56,7 @@ def _head_options(function: Callable[..., Any]) -> Callable[..., Any]:
     type=click.Choice(["brief", "full"]),
     default="full",
     show_default=True,
-    help="brief: only answer, tooth, margins, assumptions and warnings.",
+    help="Amount of detail; brief keeps answer, tooth, margins, assumptions and warnings.",
 )
 @_head_options
 @click.option("--force", is_flag=True, help="Replace an existing folder or file.")

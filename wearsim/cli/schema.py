@@ -9,7 +9,7 @@ from wearsim.command.complete import complete_kind
 from wearsim.command.options import common_options
 
 
-@click.command(short_help="JSON Schema of the input file or of the result.")
+@click.command(short_help="Print the JSON Schema of the input file or the result.")
 @click.option("--result", "of_result", is_flag=True, help="Schema of the output of life --json instead.")
 @click.option(
     "--of",

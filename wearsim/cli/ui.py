@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from wearsim.page.case_file import CaseFile
 
 
-@click.command(short_help="Local web page: edit a case and watch its life change.")
+@click.command(short_help="Edit a case on a local web page and watch its life.")
 @click.argument("case", required=False, type=CasePath(path_type=Path), metavar="[CASE]")
 @click.option(
     "--port",
@@ -89,7 +89,7 @@ def _with_setting(text: str, setting: str) -> str:
     if not equals or not all(key.strip().split(".")):
         raise OutputError(f"--set {setting}: must have the form table.key=VALUE")
     if parsed_tables(text) is None:
-        raise OutputError(f"--set {setting}: the case must be TOML for that: mend it first")
+        raise OutputError(f"--set {setting}: the case must be valid TOML for that: correct it first")
     return with_value(text, key.strip(), typed)
 
 

@@ -6,7 +6,7 @@ from wearsim.command.options import common_options
 from wearsim.errors import OutputError
 
 
-@click.command(short_help="Compile everything now, so that no later run has to wait.")
+@click.command(short_help="Compile all kernels now, so that no later run has to wait.")
 @common_options
 def warm() -> None:
     """Compile everything that the cache lacks, after an installation or while an image is built.

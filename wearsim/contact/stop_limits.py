@@ -115,7 +115,7 @@ _LIST = (
     LimitKey(
         "elongation_percent",
         "Elongation of the chain",
-        "until the chain has grown by {value:.3g} %",
+        "until the chain elongation reaches {value:.3g} %",
         kind="wrap",
         most=10.0,
     ),

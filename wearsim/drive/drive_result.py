@@ -330,7 +330,7 @@ class DriveLife:
             name: [text for text in result.warnings if text not in rating_warnings(result.ratings)]
             for name, result in self.results.items()
         }
-        failed = [f"{name}: no life: {error}" for name, error in self.failed.items()]
+        failed = [f"{name}: failed: {error}" for name, error in self.failed.items()]
         first = before_wear(self.ends, CHAIN)
         sooner = [] if first is None else [_chains_end_sooner(self.chain, first)]
         return (*failed, *sooner, *said_of_sprockets(texts, self.drive.wheels))

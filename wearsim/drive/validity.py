@@ -35,7 +35,7 @@ def wide_contact(contact: FlankContact, half_width: float) -> list[str]:
         return []
     return [
         f"contact half-width up to {half_width:.3g} mm is more than 0.1 of the radius of roller or mate: "
-        "Hertz's pressure is too high there"
+        "Hertz theory overestimates the pressure there"
     ]
 
 
@@ -87,12 +87,13 @@ def _bridged(contact: FlankContact, hours: Vector, relative: Vector, load: Vecto
     if hollow.any():
         found.append(
             f"from about {hours[int((hollow > 0.0).argmax())]:.3g} h on the mate bridges hollows, on "
-            f"{100.0 * hollow.max():.2g} % of the flank at most: Hertz's pressure is not known there"
+            f"{100.0 * hollow.max():.2g} % of the flank at most: Hertz theory does not give the pressure "
+            "there"
         )
     if ridge.any():
         found.append(
             f"from about {hours[int(ridge.argmax())]:.3g} h on ridges stand where little slides or the "
-            "load steps: Hertz's pressure on them, the peak pressure, has no limit on a finer grid"
+            "load steps: the Hertz pressure on them, which is the peak pressure, has no limit on a finer grid"
         )
     return found
 

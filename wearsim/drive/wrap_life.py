@@ -185,7 +185,7 @@ def _gave_up(run: RestingTrajectory, horizon: float) -> list[str]:
         return [f"the run ends before the sprocket's limit, so its life is longer than stated: {run.lost}"]
     return [
         f"the run ends after {run.updates} steps and {run.mates[-1]:.0f} chains, the most that it takes: "
-        "the sprocket outlives them, its own limit was not reached"
+        "the sprocket outlasts them, its own limit was not reached"
     ]
 
 

@@ -217,7 +217,7 @@ def _assumptions(log: ChainLog, band: WearBand) -> Iterator[str]:
         f"before any reading it is {band.low:.3g} to {band.high:.3g} times the case's (90 % of a "
         "log-normal distribution, the band of the case)"
     )
-    yield "errors of the readings are normal, independent and as stated; intervals hold no error of the model"
+    yield "errors of the readings are normal, independent and as stated; intervals include no model error"
     yield "of a gauge only the side of its mark is known, within its error"
     yield from _of_lengths(log)
 
@@ -249,4 +249,4 @@ def _warnings(
         )
     yield from log.relubrications.warnings()
     if lives[0] <= log.today:
-        yield "the limit may be reached already: measure again, with a smaller error"
+        yield "the limit may already be reached: measure again, with a smaller error"

@@ -32,7 +32,7 @@ def animation(result: WearResult, form: str, frames: int, seconds: float, width:
     life = f"life {hours(result.life)}, {ending(result)}"
     factors = " and ".join(str(flank.factor) for flank in worn_flanks(result))
     text = (
-        f"{title}: the flank as it wears within {grouped(result.hours_run)} h, its depth drawn {factors} "
+        f"{title}: the flank as it wears within {grouped(result.hours_run)} h, wear depth enlarged {factors} "
         f"times as large; {life}"
     )
     heading = f"{textwrap.fill(title, 80)}\n{life}"

@@ -231,7 +231,7 @@ def used_text(finding: RatingFinding) -> str:
 
 def _removed(result: WearResult) -> str:
     if not result.removed_area > _LEAST_AREA:
-        return "less than the coordinates of the flank can tell"
+        return "below the resolution of the flank coordinates"
     closes = abs(result.worn_area / result.removed_area - 1.0)
     return (
         f"{result.removed_area:.4g} mm2 between new and worn outline, {result.worn_area:.4g} mm2 summed "
@@ -372,10 +372,10 @@ def _worst(result: WearResult) -> str:
     place = f"at {result.max_depth_arc_length:.1f} mm of {length:.1f} mm"
     kind = result.inputs["mechanism"]["kind"]
     if kind == "strand":
-        side = "comes in" if result.max_depth_arc_length > 0.5 * length else "leaves"
-        place += f" from the root, on the side where the roller {side}"
+        side = "entry" if result.max_depth_arc_length > 0.5 * length else "exit"
+        place = f"{result.max_depth_arc_length:.1f} mm from the root (flank {length:.1f} mm), {side} side"
     if kind == "gear_pair":
-        place = f"pinion, {place} from where contact starts to its tip"
+        place = f"pinion, {place} from the start of contact to its tip"
     if kind == "wrap":
         place = f"{_depth(result.max_depth)} mm {place} from the gap's right tip"
         if result.life.hours_run < result.hours_run:

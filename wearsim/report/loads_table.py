@@ -56,7 +56,7 @@ def loads_json(found: ToothLoads) -> dict[str, Any]:
 def loads_table(found: ToothLoads) -> str:
     """Return the loads as ``wearsim loads`` prints them."""
     lines = [
-        f"{found.title}: {found.loads.force.size} rollers in a wrap of {found.wrap_degrees:.1f} degrees, "
+        f"{found.title}: {found.loads.force.size} rollers, wrap angle {found.wrap_degrees:.1f} degrees, "
         f"elongation {100 * found.elongation:g} %, phase {found.phase:.3g}, "
         f"{found.first_link} link after tooth 1",
         "  tooth  tension    force     load  pressure   shift  contact",
@@ -65,7 +65,7 @@ def loads_table(found: ToothLoads) -> str:
     lines += teeth_table(found).lines()[1:]
     lines += [
         f"  {jumping(found.smallest_slack, found.slack)}",
-        f"  slack strand {grouped(found.slack)} N; "
-        f"{grouped(found.centrifugal)} N more in every link from the chain's own speed",
+        f"  slack span {grouped(found.slack)} N; "
+        f"{grouped(found.centrifugal)} N more in every link: centrifugal tension",
     ]
     return "\n".join(lines)

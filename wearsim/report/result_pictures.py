@@ -75,7 +75,7 @@ def _draw_tooth_loads(panel: Axes, loads: Sequence[ToothLoads]) -> None:
     width = 0.8 / len(loads)
     for number, found in enumerate(loads):
         teeth = np.arange(1, found.loads.force.size + 1)
-        grown = f"chain grown by {100.0 * found.elongation:.3g} %"
+        grown = f"chain elongation {100.0 * found.elongation:.3g} %"
         places = teeth + width * (number - 0.5 * (len(loads) - 1))
         panel.bar(places, found.loads.force, width, label=grown if found.elongation else "new chain")
     panel.xaxis.set_major_locator(MaxNLocator(integer=True))

@@ -81,12 +81,12 @@ def _of_the_first_chain(
         hours, grown = np.append(hours, worn), np.append(grown, limit)
     for elongation, text in _TOLD.items():
         if elongation < limit and elongation <= grown[-1]:
-            yield float(np.interp(elongation, grown, hours)), f"grown by {text}"
+            yield float(np.interp(elongation, grown, hours)), f"elongation {text}"
 
 
 def _end_text(end: PartEnd, limit: float, replaced: float | None) -> str:
     """Return in words what a part comes to at its end, and that it is replaced then or before."""
-    worn = {JOINT_WEAR: f"grown by {limit:.3g} %", TOOTH_WEAR: "teeth worn to their limit"}
+    worn = {JOINT_WEAR: f"elongation {limit:.3g} %", TOOTH_WEAR: "teeth worn to their limit"}
     what, at = worn.get(end.mode, end.mode), end.hours or 0.0
     if replaced is None:
         return f"{what}: {'worn out' if end.mode in worn else 'at its end'}"

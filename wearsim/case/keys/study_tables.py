@@ -104,7 +104,7 @@ class OptimiseTable(Table):
         if len(set(self.objectives)) < len(self.objectives):
             found.append(("objectives", "every objective once, but one is given twice: remove it"))
         found += [
-            (f"parameters.{key}", "every value once, but one is given twice: remove it")
+            (f"parameters.{key}", "each value may appear once, but one is given twice: remove it")
             for key, values in self.parameters.items()
             if isinstance(values, list) and not all_differ(values)
         ]

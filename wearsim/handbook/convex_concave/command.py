@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from wearsim.report.calculation_sheet import CalculationSheet
 
 
-@calculation("convex-concave", "Flanks, contact and outlines of convex-concave gears.")
+@calculation("convex-concave", "Lay out flanks and contact of convex-concave gears.")
 def convex_concave(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Lay out the convex-concave gears of CASE, whose path of contact is two circular arcs.
 

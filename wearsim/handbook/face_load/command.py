@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from wearsim.report.calculation_sheet import CalculationSheet
 
 
-@calculation("face-load", "Face load factor of a misaligned pair, new and run in.")
+@calculation("face-load", "Compute the face load factor of a misaligned pair.")
 def face_load(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Compute the load distribution over the face width of the pair of CASE, and wear the flanks.
 

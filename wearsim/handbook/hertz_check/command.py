@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @calculation(
     "hertz-check",
-    "Contact stress of gears compared with finite elements.",
+    "Compare the contact stress of gears with finite elements.",
     click.option(
         "--fem", is_flag=True, help="Also solve the contact by finite elements (pip install 'wearsim[fem]')."
     ),

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from wearsim.report.calculation_sheet import CalculationSheet
 
 
-@calculation("stiffness-spectrum", "Mesh stiffness spectrum of gears with pitch errors.")
+@calculation("stiffness-spectrum", "Compute the mesh stiffness spectrum with pitch errors.")
 def stiffness_spectrum(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Compute the spectrum of the mesh stiffness of the gear pair of CASE with its pitch errors.
 

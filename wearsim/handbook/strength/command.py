@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from wearsim.report.calculation_sheet import CalculationSheet
 
 
-@calculation("strength", "Allowable stresses and fatigue life of a gear pair.")
+@calculation("strength", "Compute allowable stresses and fatigue life of a pair.")
 def strength(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Compute the strength of the gear pair of CASE: contact, bending and overload.
 

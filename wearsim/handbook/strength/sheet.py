@@ -133,20 +133,20 @@ def _lives(acting: Sequence[StressCheck], pair: PairStrength, what: str) -> str:
 def _assumptions(tables: StrengthTables, load: ToothLoad | None) -> tuple[str, ...]:
     reading = tables.fatigue.base_cycles
     found = [
-        f"N_HG follows {'GOST 21354' if reading == 'gost' else 'the words that are left in the source'}",
-        "1 HRC counts as 10 HB; hardness and endurance limit are taken in the middle of their bands",
+        f"N_HG follows {'GOST 21354' if reading == 'gost' else 'the surviving text of the source'}",
+        "1 HRC counts as 10 HB; hardness and endurance limit are the middle of their ranges",
     ]
     if tables.fatigue.long_life == "gost":
         found.append("beyond N_HG the allowable contact stress falls with the 20th root, down to 0.75 (GOST)")
     else:
-        found.append("K_HL and K_FL are at least 1: a stress endured for N_HG cycles is endured for ever")
+        found.append("K_HL and K_FL are at least 1: a stress endured for N_HG cycles is endured indefinitely")
     if tables.overload.static_safety != 1.0:
         found.append(f"S_st = {tables.overload.static_safety:g} (textbook: not in the source)")
     if tables.load_spectrum:
         found.append("which torques count as overloads is decided at the required life")
     if load is not None:
         found.append(
-            "spur gears without profile shift; K_H, K_F and Y_FS follow textbooks, the source has lost them"
+            "spur gears without profile shift; K_H, K_F and Y_FS follow textbooks, as the source lacks them"
         )
         if tables.load is not None and tables.load.application_factor is None:
             found.append(f"load.application_factor = {load.contact_factor.application:g} (default)")
@@ -297,7 +297,7 @@ def _undercut(tables: StrengthTables) -> list[str]:
         return []
     return [
         f"load.pinion_teeth: {load.pinion_teeth} teeth without profile shift are undercut; below "
-        f"{load.undercut_below} teeth, stress and life are only a guess"
+        f"{load.undercut_below} teeth, stress and life are rough estimates only"
     ]
 
 

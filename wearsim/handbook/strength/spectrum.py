@@ -90,5 +90,5 @@ def load_spectrum(steps: Sequence[tuple[float, float]], total: float) -> LoadSpe
         acted += cycles if torque > 0.0 else 0.0
     raise GeometryError(
         f"load_spectrum: torques above 0 must act for at least {OVERLOAD_CYCLES:g} cycles, but act for "
-        f"{acted:.4g}: that is all overload, raise the life or leave out the load spectrum"
+        f"{acted:.4g}: all of it is overload: raise the life or leave out the load spectrum"
     )

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from wearsim.report.calculation_sheet import CalculationSheet
 
 
-@calculation("synthesise", "Gear profiles for a prescribed contact stress.")
+@calculation("synthesise", "Find gear profiles for a prescribed contact stress.")
 def synthesise(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Find paths of contact and both profiles for the contact stress that CASE prescribes.
 

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from wearsim.report.calculation_sheet import CalculationSheet
 
 
-@calculation("wave-drive", "Flexspline diameter of a wave gear by eight methods.")
+@calculation("wave-drive", "Size the flexspline of a wave gear by eight methods.")
 def wave_drive(case: Path, settings: tuple[str, ...]) -> "CalculationSheet":
     """Size the flexspline of the wave drive of CASE by the methods of six textbooks.
 

@@ -233,7 +233,7 @@ def _tensions(
         )
     case.assumptions.append(
         f"tight strand {_range([block.tension for block in found], 6)} N, slack strand {slack:.4g} N, and "
-        f"{_range([block.centrifugal for block in found], 3)} N in both from the chain's own speed, which "
+        f"{_range([block.centrifugal for block in found], 3)} N centrifugal tension in both, which "
         "loads joints but not teeth"
     )
     strained = max(rated, key=lambda block: block.tension + block.centrifugal)

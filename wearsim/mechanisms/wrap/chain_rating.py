@@ -84,10 +84,10 @@ def _laid_out(layout: DriveLayout | LoopLayout) -> str:
             f"{math.degrees(angle):.1f} degrees on {wheel.name!r}"
             for wheel, angle in zip(layout.loop.wheels, layout.loop.wrap_angles, strict=True)
         )
-        return f"{layout.links} links; wrap {wraps}"
+        return f"{layout.links} links; wrap angle {wraps}"
     return (
         f"{layout.links} links, centre distance {layout.centre_distance:.2f} mm = "
-        f"{layout.centre_distance / layout.pitch:.4f} pitches (taut), wrap "
+        f"{layout.centre_distance / layout.pitch:.4f} pitches (taut), wrap angle "
         f"{math.degrees(layout.wrap_angle_1):.1f} degrees on the driver and "
         f"{math.degrees(layout.wrap_angle_2):.1f} on the driven sprocket"
     )

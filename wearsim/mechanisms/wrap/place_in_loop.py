@@ -159,7 +159,7 @@ def check_travel(case: ChainRecord, layout: LoopLayout, elongation: float) -> No
     except (CaseError, GeometryError):
         case.warnings.append(
             f"the travel of take-up {take_up.wheel!r}, {take_up.least:.4g} to {take_up.most:.4g} mm, has no "
-            f"room for a chain grown by {100.0 * elongation:.3g} %: take two links out then, or give more"
+            f"room for an elongation of {100.0 * elongation:.3g} %: take two links out then, or give more"
         )
         return
     case.assumptions.append(
@@ -224,8 +224,8 @@ def loop_loads(
         f"{layout.loop.span_name(i)} {tension:.4g}" for i, tension in enumerate(heaviest.tensions)
     )
     case.assumptions.append(
-        f"tensions of the spans at the highest load: {spans} N, and {heaviest.centrifugal:.3g} N in each "
-        "from the chain's own speed, which loads joints but not teeth"
+        f"tensions of the spans at the highest load: {spans} N, and {heaviest.centrifugal:.3g} N "
+        "centrifugal tension in each, which loads joints but not teeth"
     )
     strained = float(heaviest.tensions.max()) + heaviest.centrifugal
     key = duty.rated[rated.index(heaviest)].key

@@ -134,7 +134,7 @@ def _lives(lives: Lives) -> list[str]:
         then = "".join(f", then {name} at {hours(lives[name])}" for name in after)
         rest = [hours(lives[name]) for name in ordered if name not in ended[:count]]
         others = f"; {len(rest)} more, {' to '.join(dict.fromkeys((rest[0], rest[-1])))}" if rest else ""
-        forms.append(f"{first} dies first at {hours(lives[first])}{then}{others}")
+        forms.append(f"{first} fails first, at {hours(lives[first])}{then}{others}")
     return forms
 
 

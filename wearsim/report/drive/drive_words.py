@@ -79,7 +79,7 @@ def explained_findings(found: DriveLife) -> list[Finding]:
 
 def failed_findings(found: DriveLife) -> list[Finding]:
     """Return the sprockets whose runs have failed, and why."""
-    return [Finding(name, f"no life: {error}") for name, error in found.failed.items()]
+    return [Finding(name, f"failed: {error}") for name, error in found.failed.items()]
 
 
 def grouped_parts(found: DriveLife, most_rows: int) -> list[tuple[str, tuple[str, ...]]]:
@@ -148,14 +148,14 @@ def lives_text(lives: Lives) -> str:
     Examples
     --------
     >>> lives_text({"13T": Life(1e6, 1500.0), "15T": LowerBound(2e6, 4000.0), "17T": LowerBound(2e6, 4000.0)})
-    '13T 1 500 h; 15T and 17T > 4 000 h: 13T dies first'
+    '13T 1 500 h; 15T and 17T > 4 000 h: 13T fails first'
     """
     alike: dict[str, list[str]] = {}
     for name, life in lives.items():
         alike.setdefault(hours(life), []).append(name)
     text = "; ".join(f"{listed(names)} {life}" for life, names in alike.items())
     ended = {name: life.hours for name, life in lives.items() if isinstance(life, Life)}
-    return f"{text}: {min(ended, key=ended.__getitem__)} dies first" if ended else text
+    return f"{text}: {min(ended, key=ended.__getitem__)} fails first" if ended else text
 
 
 def part_text(found: DriveLife, name: str) -> str:
@@ -181,7 +181,7 @@ def part_ending(found: DriveLife, name: str) -> str:
     reached = isinstance(found.parts[name], Life)
     if name == CHAIN:
         limit = 100.0 * found.drive.driver.drive.joint.elongation_limit
-        return f"{'' if reached else 'not yet '}grown by {limit:.3g} %"
+        return f"elongation {'' if reached else 'below '}{limit:.3g} %"
     result, chains = found.results[name], found.chains_with(name)
     text = _sprocket_ending(result) if reached else f"{result.max_depth:.3g} mm worn"
     return f"{text}, chain {chains}" if chains > 1 else text
@@ -198,16 +198,16 @@ def drive_headline(found: DriveLife) -> str:
     """Return when something is replaced first and what, with the word where the drive is overloaded."""
     text = first_hours(found.ends, found.life) + (f", {found.first} first" if found.first else "")
     if found.failed:
-        text += f", nothing known of {listed(list(found.failed))}"
+        text += f", no life known of {listed(list(found.failed))}"
     return f"{text} (overloaded)" if found.overloaded else text
 
 
 def first_text(plan: DrivePlan) -> str:
     """Return in words what is replaced first, and what then, by the best rule of a plan."""
     stops = plan.first_stops
-    unknown = f"; nothing is known of {listed(list(plan.found.failed))}" if plan.found.failed else ""
+    unknown = f"; no life is known of {listed(list(plan.found.failed))}" if plan.found.failed else ""
     if not stops:
-        return f"nothing is to be replaced within {grouped(plan.until)} h{unknown}"
+        return f"no replacement is due within {grouped(plan.until)} h{unknown}"
     first, *after = stops
     text = first_stop_text(plan, first, parts_in_words(first))
     then = ", ".join(stop_text(plan, stop, parts_in_words(stop)) for stop in after[:_MAX_THEN])

@@ -103,8 +103,9 @@ def layout_text(drive: DriveCase) -> str:
         *(
             row(
                 one["name"],
-                f"{one['teeth']} teeth, wrap {one['wrap_deg']:.1f} degrees, {one['teeth_in_mesh']:.1f} in "
-                f"mesh; shaft {one['shaft_load_N']:.4g} N at {one['shaft_direction_deg']:.4g} degrees"
+                f"{one['teeth']} teeth, wrap angle {one['wrap_deg']:.1f} degrees, "
+                f"{one['teeth_in_mesh']:.1f} in mesh; shaft {one['shaft_load_N']:.4g} N at "
+                f"{one['shaft_direction_deg']:.4g} degrees"
                 + (f", {abs(one['torque_N_m']):.4g} N m" if one["torque_N_m"] else ", idle"),
             )
             for one in found["sprockets"]

@@ -184,7 +184,7 @@ def _loads_chart(new: "ToothLoads", grown: "ToothLoads") -> Chart:
     rows = []
     for found, label, role in (
         (new, "new chain", "new"),
-        (grown, f"chain grown by {100 * grown.elongation:.3g} %", "worn"),
+        (grown, f"chain elongation {100 * grown.elongation:.3g} %", "worn"),
     ):
         teeth = np.arange(1, found.loads.force.size + 1)
         rows.append(found.loads.force)

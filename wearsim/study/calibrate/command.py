@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from wearsim.readings.teeth_as_read import Teeth
 
 
-@click.command(short_help="Fit wear coefficients to measurements; remaining hours.")
+@click.command(short_help="Fit wear coefficients to measurements.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.argument("measurements", type=ReadingsPath(), metavar="MEASUREMENTS")
 @click.option(

@@ -103,7 +103,7 @@ def _residuals(found: Calibration) -> Figure:
             x, y = [one.hours for one in some], [one.residual for one in some]
             over.plot(x, y, "o", color=f"C{index}", markersize=4, label=_AXES[name].split(",")[0])
     over.axhline(0.0, color="black", linewidth=0.8)
-    over.axhspan(-1.645, 1.645, color="0.5", alpha=0.15, linewidth=0, label="9 of 10 by chance")
+    over.axhspan(-1.645, 1.645, color="0.5", alpha=0.15, linewidth=0, label="90 % expected by chance")
     over.set_xlabel("running time, h")
     over.set_ylabel("(fit - measured) / error")
     over.legend(frameon=False, fontsize=8)

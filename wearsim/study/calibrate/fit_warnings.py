@@ -68,7 +68,7 @@ def fit_assumptions(
         yield (
             "the runs take the joints' wear over that of the teeth as it came out, without its error"
             if chain
-            else "joints wear as much more or less than their coefficient says as teeth do"
+            else "the coefficient of the joints deviates by the same factor as that of the teeth"
         )
 
 
@@ -107,7 +107,7 @@ def fit_warnings(
                 "ends of the flank and are left out: check that the profile is that of this flank"
             )
     if case.fatigue is not None:
-        yield "contact fatigue is left out: what remains is by wear ([fatigue] may end it before)"
+        yield "contact fatigue is left out: what remains is by wear ([fatigue] may end it sooner)"
     yield from case.warnings
 
 
@@ -162,9 +162,7 @@ def _identifiability(values: Sequence[FittedCoefficient], correlation: Vector) -
     judged = values[1:] if any(value.key == EXPONENT for value in values) else values
     for value in judged:
         if _loose(value) and value.key not in inseparable:
-            yield (
-                f"the data hardly determine {value.key}: measure it apart, or leave it as it is in the case"
-            )
+            yield (f"the data hardly determine {value.key}: measure it separately, or keep the case's value")
 
 
 def _loose(value: FittedCoefficient) -> bool:

@@ -9,7 +9,7 @@ from wearsim.command.complete import ReadingsPath
 from wearsim.command.options import common_options, working
 
 
-@click.command(short_help="Which wear law do your readings follow?")
+@click.command(short_help="Find the wear law that your readings follow.")
 @click.argument("data", type=ReadingsPath(), metavar="DATA")
 @click.option(
     "--particles",

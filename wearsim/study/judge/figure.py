@@ -79,5 +79,5 @@ def _scores(panel: Axes, found: Judgement) -> None:
         label.set_color(colour if colour != "0.6" else "black")
     panel.set_xscale("symlog", linthresh=1.0)
     panel.set_xlim(left=0.0)
-    panel.set_xlabel("log score behind the best law\n(blue: not told apart from it)")
+    panel.set_xlabel("log score behind the best law\n(blue: not distinguishable from it)")
     panel.grid(alpha=0.3, axis="x")

@@ -12,9 +12,9 @@ from wearsim.report.text_lines import Finding, answer_text, closing, fenced
 from wearsim.study.judge.model import FittedConstant, JudgedLaw, Judgement
 
 ASSUMPTIONS = (
-    "wear is log-normal about a law, by a factor of the series and one of the reading",
-    "bands hold the uncertainty of the constants, by sequential Monte Carlo",
-    "before any reading each constant is expected within the range that docs/judge.md names",
+    "wear is log-normal about a law, with one factor for each series and one for each reading",
+    "bands include the uncertainty of the constants (sequential Monte Carlo)",
+    "before any reading each constant is expected within the range listed in docs/judge.md",
 )
 
 
@@ -25,7 +25,9 @@ def judgement_text(found: Judgement, explain: bool = False) -> str:
     rows = [
         Finding("Readings", f"{data.wear.size} in {len(data.names)} series; {held} held out to judge by"),
         Finding("Best law", _described(found.best)),
-        Finding("As good", ", ".join(found.ties[1:]) or "none: the readings tell it from all others"),
+        Finding(
+            "As good", ", ".join(found.ties[1:]) or "none: the readings distinguish it from all other laws"
+        ),
         *([Finding("Take", f"{_described(taken)}, the simplest of them")] if taken is not found.best else []),
         *([Finding("Constants", "; ".join(map(_constant, taken.constants)))] if taken.constants else []),
         Finding("Scatter", "; ".join(map(_constant, taken.deviations)) + ", of ln(wear)"),
@@ -46,7 +48,7 @@ def _described(one: JudgedLaw) -> str:
     return f"{one.law}, wear = {one.formula}, with {_SCATTERS[one.scatter]}"
 
 
-_SCATTERS = {"factor": "a factor of each series that stays", "walk": "a factor of each series that wanders"}
+_SCATTERS = {"factor": "a constant factor for each series", "walk": "a drifting factor for each series"}
 
 
 def _constant(one: FittedConstant) -> str:

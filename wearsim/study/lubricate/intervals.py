@@ -161,7 +161,7 @@ class LubricationIntervals:
         if self.unknown:
             return None, None, self.unknown
         if not self.application_cost:
-            return None, None, "a relubrication costs nothing: the more often, the better"
+            return None, None, "a relubrication costs nothing: the shorter the interval, the better"
         longest = self.longest
         tried = np.geomspace(1e-4 * longest, longest, _SEARCHED)
 
@@ -173,7 +173,7 @@ class LubricationIntervals:
         if at == _SEARCHED - 1:
             return None, None, "never within a life: a relubrication costs more than it saves"
         if at == 0:
-            return None, None, f"less than {tried[0]:.3g} h: hardly anything to pay for a relubrication"
+            return None, None, f"less than {tried[0]:.3g} h: a relubrication costs almost nothing"
         near = tried[at - 1], tried[at + 1]
         best = float(
             minimize_scalar(cost, bounds=near, method="bounded", options={"xatol": 1e-9 * near[1]}).x

@@ -25,7 +25,7 @@ from wearsim.study.lubricate.intervals import (
 from wearsim.wear.running_in import WearClock
 
 CONVENTIONS = (
-    "lives are of parts that are new when they are lubricated; costs are in the long run, where parts are "
+    "lives start with new, freshly lubricated parts; costs are long-run averages, where parts are "
     "replaced at any time between two relubrications, without interest",
     "bands of lives and costs are those of the wear coefficients, of a chain those of its joints; how long "
     "the lubricant lasts and what dry contacts wear is taken as it is",

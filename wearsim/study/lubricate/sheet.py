@@ -12,7 +12,8 @@ from wearsim.study.lubricate.intervals import MissedRelubrication, Relubrication
 from wearsim.study.lubricate.model import LubricantPlan, LubricationStudy
 
 _AT_THE_EDGE = (
-    ". The lubricant gives out there, and what it lasts scatters: take a shorter one than the cheapest"
+    ". The lubricant is exhausted there, and its duration scatters: choose a shorter interval than the "
+    "cheapest"
 )
 
 
@@ -104,7 +105,7 @@ def _pays(study: LubricationStudy) -> Iterator[Finding]:
         yield Finding("Pays", "; ".join([f"{_named(best)}, {_advice(study, best)}", *_without_oil(study)]))
     elif best is None and len(study.plans) > len(study.untold) > 0:
         unknown = "; ".join(f"{_named(plan)} ({plan.unknown})" for plan in study.untold)
-        yield Finding("Pays", f"not told, as no least cost is known for {unknown}")
+        yield Finding("Pays", f"not known, as there is no least cost for {unknown}")
 
 
 def _named(plan: LubricantPlan) -> str:
@@ -149,15 +150,15 @@ def _effect(study: LubricationStudy, plan: LubricantPlan) -> str:
 def _missed(study: LubricationStudy, missed: MissedRelubrication) -> str:
     if missed.lost is None:
         every = _interval(study, missed.interval)
-        return f"not told for intervals of {every}: a part does not outlive two of them"
-    lost = f"{grouped(missed.lost)} h of the life of every part"
+        return f"not told for intervals of {every}: a part does not outlast two of them"
+    lost = f"{grouped(missed.lost)} h of life of every part"
     if not missed.lost > 0.0:
-        lost = "nothing of the life of any part"
+        lost = "no life of any part"
     cost = ""
     if missed.cost is not None:
-        cost = f", which {'costs' if missed.cost >= 0.0 else 'saves'} {grouped(abs(missed.cost))}"
+        cost = f" and {'money' if missed.cost >= 0.0 else 'saves'} {grouped(abs(missed.cost))}"
     every = _interval(study, missed.interval)
-    return f"one relubrication left out of those every {every} takes {lost}{cost}"
+    return f"skipping one relubrication of those every {every} costs {lost}{cost}"
 
 
 def _advice(study: LubricationStudy, plan: LubricantPlan) -> str:

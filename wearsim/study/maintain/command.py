@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from wearsim.readings.teeth_as_read import Teeth
 
 
-@click.command(short_help="When to replace chain and sprockets, and at what cost.")
+@click.command(short_help="Plan when to replace chain and sprockets, and the cost.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.argument(
     "readings",

@@ -125,7 +125,7 @@ def _answers(plan: MaintenancePlan) -> list[str]:
         return [f"cheapest{known}: a new chain at {_percent(cheapest):g} %{reversed_}"]
     if any(isinstance(policy.sprocket, LowerBound) for policy in plan.policies):
         return [
-            "> : the sprocket's limit was not reached, so its cost is not known (raise run.horizon_hours, "
+            "> : the sprocket's limit was not reached, so the cost is unknown (raise run.horizon_hours, "
             "or see the warnings)"
         ]
     return ["no cost without maintenance.chain_price and maintenance.sprocket_price"]

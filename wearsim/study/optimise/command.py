@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from wearsim.study.optimise.model import OptimiseStudy
 
 
-@click.command(short_help="Best design for life, mass and pressure; Pareto fronts.")
+@click.command(short_help="Find the best designs for life, mass and pressure.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--evaluations",

@@ -50,7 +50,9 @@ class OptimiseStudy:
         each = [(*self._of_measures(case), *case.assumptions) for case in cases]
         shared = [text for text in each[0] if all(text in other for other in each[1:])]
         if any(len(texts) > len(shared) for texts in each):
-            shared.append("more that differs from design to design: `wearsim check --explain designs/01.toml` lists it")
+            shared.append(
+                "more that differs from design to design: `wearsim check --explain designs/01.toml` lists it"
+            )
         return tuple(shared)
 
     def _of_measures(self, case: Case | DriveCase) -> list[str]:
@@ -73,7 +75,7 @@ def load_optimise(source: CaseSource, overrides: Sequence[str], evaluations: int
     loaded = load_case(source, overrides)
     case = loaded.chain_case
     if "optimise" not in case.inputs:
-        text = "this table is required: it tells what may change, as parameters by their keys"
+        text = "this table is required: it lists what may change, as parameters by their keys"
         raise CaseError([Fault(text, "optimise", document.faults.file)])
     table = OptimiseTable.model_validate(case.inputs["optimise"])
     space = search_space(document.data, table.parameters)
@@ -121,7 +123,7 @@ def _with_files(document: Document, space: SearchSpace) -> tuple[Design, SearchS
     for parameter, column in zip(space.parameters, zip(*given.rows, strict=True), strict=False):
         bare = tuple(name for name in column if name is not None)
         if not all_differ(bare):
-            text = "every file once, but one is given twice: remove it"
+            text = "each file may appear once, but one is given twice: remove it"
             raise CaseError([Fault(text, _quoted(parameter.key), place)])
         parameters.append(replace(parameter, choices=bare) if bare else parameter)
     return given, SearchSpace(tuple(parameters) or space.parameters)

@@ -114,7 +114,7 @@ def optimise_warnings(outcome: OptimiseOutcome) -> tuple[str, ...]:
         ]
     if not outcome.settled:
         found.append(
-            f"the search was ended by --evaluations {study.evaluations} while it still gained: more may "
+            f"the search ended at --evaluations {study.evaluations} while it was still improving: more may "
             "give better designs"
         )
     return (*found, *study.space.warnings, *_of_designs(outcome))

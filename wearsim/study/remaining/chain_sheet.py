@@ -19,7 +19,7 @@ _WORDS = {
     "remaining_km": ("In service", "{} km"),
     "remaining_hours_of_all": ("All chains", "{} h left together"),
     "end_date": ("Until", "{}"),
-    "elongation_percent": ("Now", "{} % longer"),
+    "elongation_percent": ("Now", "{} % elongation"),
     "life_hours": ("Life", "{} h in all"),
     "coefficient_factor": ("Coefficient", "{} times the case's"),
 }
@@ -51,7 +51,7 @@ def counted_readings(found: ChainState) -> str:
     measured = len(found.log.readings) - gauges
     widened = found.posterior.scale
     return f"{measured} measured, {gauges} by a gauge" + (
-        f", errors taken {widened:.3g} times as large" if widened > 1.0 else ""
+        f", errors enlarged {widened:.3g} times as large" if widened > 1.0 else ""
     )
 
 

@@ -19,7 +19,7 @@ from wearsim.command.options import (
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
 
-@click.command(short_help="Remaining life from readings in service.")
+@click.command(short_help="Estimate the remaining life from readings in service.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.argument("readings", required=False, type=ReadingsPath(), metavar="[READINGS]")
 @click.option(

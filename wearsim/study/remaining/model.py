@@ -215,7 +215,7 @@ def _teeth(case: Case, reading: SingleReading, progress: Callable[[float], None]
         if ambiguous:
             raise _fault(reading, ambiguous)
         values = values[0] - values
-    joints = ("joints wear as much more or less than their coefficient says as teeth do",)
+    joints = ("the coefficient of the joints deviates by the same factor as that of the teeth",)
     return _PartHistory(
         hours=columns["time_hours"],
         values=values,

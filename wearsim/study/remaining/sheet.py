@@ -13,8 +13,8 @@ from wearsim.study.remaining.model import RemainingLife
 
 _WORDS = {
     "max_depth_mm": "{} mm worn off",
-    "over_pins_mm": "{} mm less over pins",
-    "elongation_percent": "{} % longer",
+    "over_pins_mm": "{} mm loss over pins",
+    "elongation_percent": "{} % elongation",
 }
 
 
@@ -28,13 +28,13 @@ def remaining_text(found: RemainingLife, inputs: Mapping[str, Any], explain: boo
         Finding(
             "Remaining", f"{hours(found.remaining)} of the {found.part} after {grouped(reading.hours)} h"
         ),
-        Finding("By the reading's error:", f"{band}   ({what}, give or take {reading.error:g})"),
+        Finding("Band", f"{band}   (reading: {what}, +- {reading.error:g})"),
         *([Finding("In service", service)] if service else []),
         Finding("Life", f"{hours(found.life)} of the {found.part} in all"),
         Finding(
             "Coefficient",
-            f"{found.coefficient:.4g}, {found.factor:.3g} times the case's, which would show the reading "
-            f"after {grouped(found.model_hours)} h",
+            f"{found.coefficient:.4g}, {found.factor:.3g} times that of the case, which reaches this "
+            f"reading after {grouped(found.model_hours)} h",
         ),
         *closing(found.assumptions, found.warnings, explain),
     ]

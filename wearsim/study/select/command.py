@@ -207,7 +207,7 @@ def select(
             "\n".join([selection_text(answer, explain), *map(_verified_text, verified)])
         )
     if not answer.shown:
-        warn("select: a drive must keep to all limits, but none does: see what refuses them")
+        warn("select: no drive meets all limits: see the line Refused")
         return FAILED
     _write(answer, wish, out, csv_file, force)
     return 0

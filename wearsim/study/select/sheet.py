@@ -190,9 +190,9 @@ def _some(names: Sequence[str]) -> str:
 def _assumptions(answer: SelectionAnswer) -> tuple[str, ...]:
     need = answer.need
     centre = (
-        "about 40 pitches between the shafts, within their bounds"
+        "centre distance about 40 pitches, within its bounds"
         if need.centre is None
-        else f"the next even number of links at {need.centre:g} mm; its slack is taken up"
+        else f"the next even number of links at {need.centre:g} mm; a take-up removes the slack"
     )
     return (
         f"service factor {need.service_factor:g} on the power, smooth driver; joint application factor "
@@ -201,11 +201,11 @@ def _assumptions(answer: SelectionAnswer) -> tuple[str, ...]:
         f"({need.joints.joint_typical:g} mm2/N at {need.joints.joint_reference_pressure:g} MPa and "
         f"{need.joints.joint_reference_speed:g} rpm), to 3 % or 200 % over the larger number of teeth",
         *_lubrication_assumptions(need),
-        f"strands share the load alike; slack span sags by {100 * SAG:g} %",
+        f"strands share the load equally; the slack span sags by {100 * SAG:g} %",
         centre,
-        f"at most {MOST_TEETH} teeth and at least {math.degrees(LEAST_WRAP):.0f} degrees of wrap, as "
+        f"at most {MOST_TEETH} teeth and at least {math.degrees(LEAST_WRAP):.0f} degrees of wrap angle, as "
         "handbooks say",
-        "how long the teeth live is not calculated here: --verify N, or wearsim life with the case of --out",
+        "tooth life is not calculated here: use --verify N, or wearsim life with the case of --out",
     )
 
 

@@ -30,7 +30,7 @@ def lives_text(verified: Mapping[str, Any]) -> str:
     """Return the lives of a drive in a line."""
     title = verified["title"]
     if "error" in verified:
-        return f"{title}: cannot be worn: {verified['error']}"
+        return f"{title}: wear calculation failed: {verified['error']}"
     parts = ", ".join(f"{part['name']} {_hours(part)} h" for part in verified["parts"])
     return f"{title}: {parts}" + ("" if verified["long_enough"] else "; NOT LONG ENOUGH")
 

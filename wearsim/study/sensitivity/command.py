@@ -16,7 +16,7 @@ def _power_of_two(context: click.Context, parameter: click.Parameter, value: int
     return value
 
 
-@click.command(short_help="Which inputs matter most: Sobol', Morris, tornado.")
+@click.command(short_help="Rank inputs by their effect on the life (Sobol', Morris).")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--samples",

@@ -103,7 +103,7 @@ def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[KeyEffect]:
     one = hours[1 : 1 + 2 * count].reshape(count, 2)
     logs = np.log(hours)
     if np.ptp(logs) < _SAME:
-        raise StudyError("nothing that scatters changes the life: there is nothing to tell apart")
+        raise StudyError("none of the scattering inputs changes the life: there is nothing to rank")
     screened = library("SALib.analyze.morris", "study", "sensitivity").analyze(
         problem, study.morris, logs[1 + 2 * count : -study.sobol], num_levels=_LEVELS, seed=study.seed
     )
@@ -127,7 +127,7 @@ def effects(study: SensitivityStudy, table: pd.DataFrame) -> list[KeyEffect]:
 def doubling(scattered: ScatteredCase, found: Sequence[KeyEffect]) -> dict[str, float]:
     """Return the value of every key at which the case lives twice as long, the others as they are.
 
-    It is nan of a key that is not felt, and of one for which no value that can run doubles the life.
+    It is nan of a key that is not felt, and of one for which no feasible value doubles the life.
     """
     if scattered.case.fatigue is not None:
         return dict.fromkeys(scattered.keys, math.nan)

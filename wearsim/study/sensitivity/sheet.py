@@ -28,9 +28,9 @@ _ALONE = (
 
 _OFFER = "usual scatters to put into the case as a start (10 % of load, 3 % of speed, 2 % of sizes):"
 
-_NO_VALUE = "no value that can run"
+_NO_VALUE = "no feasible value"
 _NOT_FELT = "changes the life by less than 1 %"
-_NOT_DOUBLED = "what doubles the life is not looked for: contact fatigue may change it by leaps"
+_NOT_DOUBLED = "values that double the life are not calculated: contact fatigue can change the life abruptly"
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def sensitivity_warnings(effects: Sequence[KeyEffect], case: Case) -> tuple[str,
     # The index of a key that scatters alone is 1 whatever its estimate.
     if not loose or len(effects) == 1:
         return found
-    return (*found, f"the indices of {', '.join(loose)} are not known well: take more --samples")
+    return (*found, f"the indices of {', '.join(loose)} are poorly determined: use more --samples")
 
 
 def sensitivity_table(answer: SensitivityAnswer) -> AnswerTable[KeyEffect]:
@@ -81,7 +81,11 @@ def sensitivity_text(answer: SensitivityAnswer, explain: bool = False) -> str:
     """Return what matters as text."""
     scattered = answer.study.scattered
     width = max(len(key) for key in scattered.keys)
-    lines = [scattered.case.title, "", f"life         {grouped(answer.hours)} h in the middle of all"]
+    lines = [
+        scattered.case.title,
+        "",
+        f"life         {grouped(answer.hours)} h with all inputs at their medians",
+    ]
     lines += ["", "part of the variance of ln L, and life with one key low and high (10 and 90 %):"]
     for effect in answer.effects:
         lines.append(
@@ -95,17 +99,17 @@ def sensitivity_text(answer: SensitivityAnswer, explain: bool = False) -> str:
             f"  {effect.scatter.key:<{width}}  {effect.morris:6.3f} +-{effect.morris_error:.3f}  scatter "
             f"{effect.interaction:.3f}"
         )
-    lines += ["", "what would double the life, the others as they are:"]
+    lines += ["", "value that would double the life, the others unchanged:"]
     for effect in answer.effects:
         value = answer.doubled[effect.scatter.key]
         if not math.isnan(value):
             shown = f"{value:.4g}"
         elif scattered.case.fatigue is not None:
-            shown = "not looked for"
+            shown = "not calculated"
         else:
             shown = _NO_VALUE if effect.is_felt else _NOT_FELT
         lines.append(f"  {effect.scatter.key:<{width}}  {effect.scatter.value:.4g} -> {shown}")
-    lines += ["", "what scatters:"]
+    lines += ["", "scattering inputs:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in scattered.scatters]
     assumptions = [*scattered.assumptions, *scattered.case.assumptions]
     lines += closing_lists(assumptions, [*answer.warnings, *scattered.case.warnings], explain)

@@ -10,7 +10,7 @@ from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import exit_code, run
 
 
-@click.command(short_help="Lives for many values of any keys: grids, lists, designs.")
+@click.command(short_help="Compute lives for many values of any keys.")
 @click.argument("study", type=CasePath(path_type=Path), metavar="STUDY")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object per case.")
 @study_options

@@ -64,7 +64,7 @@ class SweepTables(CalculationTables):
         if not (self.grid or self.zip or self.design):
             found.append(("grid", "a sweep needs values for a key in [grid], [[zip]] or [[design]]"))
         found += [
-            (f"grid.{key}", "every value once, but one is given twice: remove it")
+            (f"grid.{key}", "each value may appear once, but one is given twice: remove it")
             for key, values in self.grid.items()
             if isinstance(values, list) and not all_differ(values)
         ]

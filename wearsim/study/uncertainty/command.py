@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _ROUNDING = 1e-9
 
 
-@click.command(short_help="P10, P50 and P90 life when inputs scatter.")
+@click.command(short_help="Compute P10, P50 and P90 life for scattering inputs.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.option(
     "--samples",

@@ -34,7 +34,7 @@ def uncertainty_text(answer: UncertaintyAnswer, explain: bool = False) -> str:
         lines += _cross_check_lines(answer.crossed)
     if answer.ends_first:
         lines += ["", *_part_lines(answer)]
-    lines += ["", "what scatters:"]
+    lines += ["", "scattering inputs:"]
     lines += [f"  {scatter.key}: {scatter.text}" for scatter in study.scattered.scatters]
     lines += ["", "percentiles of the first samples, h:"]
     lines += [f"  {line}" for line in _columns(answer.convergence)]
@@ -45,7 +45,7 @@ def uncertainty_text(answer: UncertaintyAnswer, explain: bool = False) -> str:
 _METHODS = {"sobol": "scrambled Sobol' points", "lhs": "Latin hypercube", "random": "independent"}
 _OF_INTERVALS = (
     f"intervals hold the percentile with {100 * CONFIDENCE:.0f} % confidence for independent samples, "
-    "whatever the distribution; they do not tell of errors of the model"
+    "whatever the distribution; they do not include model errors"
 )
 
 
@@ -110,10 +110,10 @@ def _part_lines(answer: UncertaintyAnswer) -> list[str]:
     first = sorted(answer.ends_first.items(), key=lambda item: -item[1])
     shares = ", ".join(f"{name} in {100.0 * share:.0f} %" for name, share in first if share > 0.0)
     lives = ", ".join(
-        f"{name} {grouped(hours)} h" if math.isfinite(hours) else f"{name} beyond the run"
+        f"{name} {grouped(hours)} h" if math.isfinite(hours) else f"{name} not reached"
         for name, hours in answer.medians.items()
     )
-    return [f"ends first   {shares or 'nothing within the run'}", f"P50 of each  {lives}"]
+    return [f"ends first   {shares or 'nothing within the horizon'}", f"P50 by part  {lives}"]
 
 
 def _hours(found: Percentile) -> str:
