@@ -39,7 +39,7 @@ WALKS = {
     "report": "report 16b-20t-oiled --out {folder}/page",
     "uncertainty": "uncertainty 16b-20t-oiled --samples 64",
     "lubricate": f"lubricate bicycle-17t-lubricants {COARSE} --set sprocket.nodes=41",
-    "strength": "strength strength-a-tempered",
+    "strength": "handbook strength strength-a-tempered",
 }
 LONGEST, FUNCTION, PARAMETERS, FILE = 10, 40, 6, 300
 """How many of the longest files are named, and what functions and files are counted past."""

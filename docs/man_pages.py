@@ -8,7 +8,7 @@ from click_man.core import write_man_pages
 
 import wearsim
 from wearsim.cli.command_groups import COMMAND_GROUPS
-from wearsim.cli.handbook import CALCULATIONS
+from wearsim.cli.handbook import HANDBOOK
 from wearsim.cli.main import wearsim_command
 
 
@@ -22,7 +22,7 @@ def grouped(page: str) -> str:
 
 if __name__ == "__main__":
     folder = sys.argv[1]
-    for commands in (*COMMAND_GROUPS.values(), CALCULATIONS):
+    for commands in (*COMMAND_GROUPS.values(), HANDBOOK):
         for command, example in commands.items():
             command.help = f"{cleandoc(command.help)}\n\nExample:\n  {example}"
     write_man_pages("wearsim", wearsim_command, version=wearsim.__version__, target_dir=folder, date="")

@@ -65,14 +65,14 @@ def percentile_meaning(share: float) -> str:
     Examples
     --------
     >>> percentile_meaning(0.1), percentile_meaning(0.5), percentile_meaning(0.9)
-    ('9 of 10 live longer', 'half live longer', '1 of 10 lives longer')
+    ('9 of 10 last longer', 'half last longer', '1 of 10 lasts longer')
     """
     if share == 0.5:
-        return "half live longer"
+        return "half last longer"
     longer = 100 - round(100 * share)
     common = math.gcd(longer, 100)
     longer, every = longer // common, 100 // common
-    return f"{longer} of {every} {'lives' if longer == 1 else 'live'} longer"
+    return f"{longer} of {every} {'lasts' if longer == 1 else 'last'} longer"
 
 
 def grouped(value: float, digits: int = 4) -> str:

@@ -11,12 +11,12 @@ import pytest
 
 import wearsim
 from wearsim.cli.command_groups import COMMAND_GROUPS
-from wearsim.cli.handbook import CALCULATIONS
+from wearsim.cli.handbook import HANDBOOK
 from wearsim.cli.main import wearsim_command
 from wearsim.extras import libraries
 
 EXAMPLES = sorted(
-    {example for commands in (*COMMAND_GROUPS.values(), CALCULATIONS) for example in commands.values()}
+    {example for commands in (*COMMAND_GROUPS.values(), HANDBOOK) for example in commands.values()}
 )
 
 
@@ -46,7 +46,7 @@ def test_example_is_a_command_line(example, tmp_path, monkeypatch):
         CALCULATION_OF[name].make_context(name, words, parent=context)
 
 
-CALCULATION_OF = {command.name: command for command in CALCULATIONS}
+CALCULATION_OF = {command.name: command for command in HANDBOOK}
 
 HIDDEN = [
     "SALib",
@@ -134,7 +134,7 @@ def test_help_of_a_command_ends_with_its_example(cli):
 
 def test_no_example_of_the_handbook_is_broken(cli):
     shown = cli("handbook", "--help").out.splitlines()
-    assert {line.strip() for line in shown} >= set(CALCULATIONS.values())
+    assert {line.strip() for line in shown} >= set(HANDBOOK.values())
     assert max(map(len, shown)) <= 80
 
 

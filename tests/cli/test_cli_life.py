@@ -264,7 +264,7 @@ def test_solve_for_prints_value_life_and_slope(cli, drive, conforms):
     assert found["lowest"] <= found["value"] <= found["highest"]
     text = cli("life", path, *requested, "--set", "load={tension_N=3000, speed_rpm=100}").out
     assert text.startswith(f"  Solved     load.speed_rpm = {found['value']:.6g} lives ")
-    assert "1 % more of it lives 1 % less" in text
+    assert "1 % more of it gives 1 % less life" in text
 
 
 def test_solve_for_without_an_answer_is_4(cli, drive, conforms):

@@ -135,11 +135,11 @@ def test_indices_are_of_the_life_that_governs(cli, case):
     assert "warning: what doubles the life is not looked for" in text
     done = cli(*options, 8, "--set", "load.tension_N=16500")
     assert done.code == 3
-    assert "live 0 h by contact fatigue" in done.err
+    assert "have a life of 0 h by contact fatigue" in done.err
 
 
 def test_page_gives_no_percentiles_by_the_coefficient_alone(cli, case, tmp_path):
     wear = '"wear.specific_wear_rate_mm2_per_N" = {distribution = "lognormal", sigma_ln = 0.5}\n'
     path = case(f"[uncertainty]\n{wear}")
     assert cli("report", path, "--out", tmp_path / "out").code == 0
-    assert "9 of 10 live longer" not in (tmp_path / "out" / "index.html").read_text("utf-8")
+    assert "9 of 10 last longer" not in (tmp_path / "out" / "index.html").read_text("utf-8")

@@ -278,8 +278,8 @@ def test_a_percentile_of_the_table_of_names_reaches_every_table(cli, case, tmp_p
     finally:
         percentile_shares.cache_clear()
     assert (done.code, page.code) == (0, 0)
-    assert re.search(r"^P5 .* 19 of 20 live longer$", done.out, re.MULTILINE)
+    assert re.search(r"^P5 .* 19 of 20 last longer$", done.out, re.MULTILINE)
     columns = (tmp_path / "out" / "convergence.csv").read_text().splitlines()[0]
     assert columns == "samples,p5_hours,p10_hours,p50_hours,p90_hours"
     assert "P5, P10, P50, P90" in (tmp_path / "out" / "lives.svg").read_text()
-    assert "P5: 19 of 20 live longer" in (tmp_path / "page" / "index.html").read_text()
+    assert "P5: 19 of 20 last longer" in (tmp_path / "page" / "index.html").read_text()

@@ -15,7 +15,7 @@ from wearsim.handbook.strength.command import strength
 from wearsim.handbook.synthesise.command import synthesise
 from wearsim.handbook.wave_drive.command import wave_drive
 
-CALCULATIONS: dict[click.Command, str] = {
+HANDBOOK: dict[click.Command, str] = {
     strength: "wearsim handbook strength strength-a-tempered",
     stiffness_spectrum: "wearsim handbook stiffness-spectrum stiffness-spectrum-20-30",
     face_load: "wearsim handbook face-load face-load-mill-drive",
@@ -31,7 +31,7 @@ _GONE = "0.4.0"
 
 
 @click.group(
-    cls=ExampleGroup, groups={"Commands": CALCULATIONS}, short_help="Calculate gears by handbook methods."
+    cls=ExampleGroup, groups={"Commands": HANDBOOK}, short_help="Calculate gears by handbook methods."
 )
 @common_options
 def handbook() -> None:
@@ -43,7 +43,7 @@ def handbook() -> None:
 
 def commands_of_before() -> list[click.Command]:
     """Return the calculations under the names that they had before there was a handbook."""
-    return [_of_before(command) for command in CALCULATIONS]
+    return [_of_before(command) for command in HANDBOOK]
 
 
 def _of_before(command: click.Command) -> click.Command:

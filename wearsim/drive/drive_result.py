@@ -29,7 +29,7 @@ _FOLDER = "wearsim.report.drive.drive_folder"
 
 @dataclass(frozen=True)
 class DriveLife:
-    """How long the chain and every sprocket of a drive live.
+    """How long the chain and every sprocket of a drive last.
 
     Attributes
     ----------
@@ -263,7 +263,7 @@ class DriveLife:
 
     @property
     def life(self) -> Life | LowerBound:
-        """Life of the part that wears out first, or how long all live at least."""
+        """Life of the part that wears out first, or how long all last at least."""
         parts, first = self.parts, self.first_worn
         return parts[first] if first else min(parts.values(), key=lambda life: life.hours_run)
 

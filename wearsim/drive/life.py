@@ -32,7 +32,7 @@ def drive_life(
     drive : DriveCase
         Sprockets and chain.
     progress : callable, optional
-        Told how much of the runs is done, from 0 to 1.
+        Called with the fraction of the runs done, from 0 to 1.
     threads : int, optional
         Sprockets that run side by side; as many as there are cores where it is left out.
 

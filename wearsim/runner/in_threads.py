@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from wearsim.runner.workers import Threads
 
 Progress = Callable[[float], None]
-"""Told how much is done, from 0 to 1."""
+"""Called with the fraction done, from 0 to 1."""
 
 
 THREADS, SEED = Range(1, whole=True, optional=True), Range(0, whole=True)

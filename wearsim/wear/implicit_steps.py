@@ -52,7 +52,7 @@ _SHOWN = 10
 """Ends of mates that are kept of a leap, at most."""
 
 Watch = Callable[[float], bool]
-"""Told before every step how much of a run is done; whether to go on."""
+"""Called before every step with the fraction done; returns whether to go on."""
 
 _MAX_STEPS = 10_000
 """Steps of one run at level 0, those of about 600 mates in full; a run of more ends there, at no limit."""

@@ -95,7 +95,7 @@ def advance_resting(
     life_tolerance : float
         Relative error of the life that is asked for.
     progress : callable, optional
-        Told how much is done, from 0 to 1: it only rises, by a leap where no finer run follows.
+        Called with the fraction done, from 0 to 1: it only rises, by a leap where no finer run follows.
 
     Returns
     -------

@@ -116,7 +116,7 @@ def judge(
     particles : int
         Draws of the constants of each law, 100 to 20 000.
     progress : callable, optional
-        Told how much is done, from 0 to 1.
+        Called with the fraction done, from 0 to 1.
 
     Returns
     -------

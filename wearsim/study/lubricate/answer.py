@@ -95,7 +95,7 @@ def lubricate(case: CaseInput, *, progress: Progress = silent) -> LubricationRes
         With a ``[lubrication]`` that says how long the lubricant lasts. Other lubricants stand in
         ``[[lubrication.option]]``, prices in both and in ``[maintenance]``.
     progress : callable, optional
-        Told how much is done, from 0 to 1.
+        Called with the fraction done, from 0 to 1.
 
     Returns
     -------

@@ -168,7 +168,7 @@ def maintain(
         Of a plan from readings: ``case``, teeth wear as the case says, or ``chain``, as much faster or
         slower than that as the chain does by its readings.
     progress : callable, optional
-        Told how much is done, from 0 to 1.
+        Called with the fraction done, from 0 to 1.
 
     Returns
     -------

@@ -16,7 +16,7 @@ from wearsim.study.maintain.reversed_sprocket import reversed_life
 from wearsim.study.maintain.tooth_count import ToothCount, meetings_around, variant
 
 Progress = Callable[[int, int], None]
-"""Told before each run how many are done, and of how many."""
+"""Called before each run with the number done and the number of all."""
 
 POLICIES = (1.0, 1.5, 2.0, 3.0)
 """Elongations in percent to compare where none are given, as far as they lie below the drive's limit."""

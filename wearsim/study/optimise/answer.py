@@ -138,7 +138,7 @@ def optimise(
     threads : int, optional
         Designs that run side by side; one a core without it.
     progress : callable, optional
-        Told how much of the evaluations is done, from 0 to 1; a search may end before.
+        Called with the fraction of the evaluations done, from 0 to 1; a search may end before.
 
     Returns
     -------

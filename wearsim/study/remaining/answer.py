@@ -175,7 +175,7 @@ def remaining(
     sprocket : str, optional
         Which sprocket of a whole drive was measured, by its name; of depth and over_pins only.
     progress : callable, optional
-        Told how much is done, from 0 to 1.
+        Called with the fraction done, from 0 to 1.
 
     Returns
     -------

@@ -171,6 +171,6 @@ def _check(table: pd.DataFrame) -> None:
     none = int((table["life_hours"] == 0.0).sum())
     if none:
         raise StudyError(
-            f"{none} of {len(table)} cases live 0 h by contact fatigue, and indices are of the logarithm "
-            "of the life: narrow the distributions or take a better material"
+            f"{none} of {len(table)} cases have a life of 0 h by contact fatigue, and indices are of the "
+            "logarithm of the life: narrow the distributions or take a better material"
         )

@@ -93,17 +93,17 @@ def _show(solved: "Solved", path: Path, key: str, hours: float, start: float, as
         show(answer_text(result, f"{path} --set {_setting(key, solved.trial.value, start)}"))
     if not solved.met:
         warn(
-            f"{path}: no value of {key} was found from {solved.low:.6g} to {solved.high:.6g} that lives "
+            f"{path}: no value of {key} was found from {solved.low:.6g} to {solved.high:.6g} that lasts "
             f"{grouped(hours)} h: shown is the nearest"
         )
 
 
 def _sentence(solved: "Solved", key: str, hours: float) -> str:
     trial = solved.trial
-    text = f"{key} = {trial.value:.6g} lives {trial.hours:.6g} h, {hours:g} h are required"
+    text = f"{key} = {trial.value:.6g} lasts {trial.hours:.6g} h, {hours:g} h are required"
     if not math.isnan(solved.elasticity):
         side = "more" if solved.elasticity > 0.0 else "less"
-        text += f"; 1 % more of it lives {abs(solved.elasticity):.3g} % {side}"
+        text += f"; 1 % more of it gives {abs(solved.elasticity):.3g} % {side} life"
     return f"{text} ({solved.runs} lives calculated)"
 
 

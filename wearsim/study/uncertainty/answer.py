@@ -137,7 +137,7 @@ def uncertainty(
     threads : int, optional
         Cases that run side by side; one a core without it.
     progress : callable, optional
-        Told how much is done, from 0 to 1.
+        Called with the fraction done, from 0 to 1.
 
     Returns
     -------
