@@ -115,7 +115,7 @@ def test_wrong_number(cli, monkeypatch):
     monkeypatch.setattr(doctor, "KNOWN_CYCLES", doctor.KNOWN_CYCLES * 1.001)
     content, failed = findings(cli, 1)
     assert failed == ["self-test"]
-    assert "trust no result" in content["self-test"]["advice"]
+    assert "do not trust results" in content["self-test"]["advice"]
 
 
 def test_kernel_that_does_not_compile(cli, monkeypatch):

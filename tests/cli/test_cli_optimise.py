@@ -333,7 +333,7 @@ def test_files_as_a_parameter_are_there_and_differ(cli, two_flanks, tmp_path):
     assert "but 'b.csv' cannot" in done.err
     text = two_flanks.read_text().replace('"b.csv"', '"data/./a.csv"')
     two_flanks.write_text(text)
-    assert "every file once" in cli("optimise", two_flanks).err
+    assert "each file may appear once" in cli("optimise", two_flanks).err
     two_flanks.write_text(text.replace('"data/./a.csv"', "3"))
     assert "takes names of files: give a list" in cli("optimise", two_flanks).err
 
@@ -406,9 +406,9 @@ def test_misspelt_keys_of_a_range_get_no_hint_at_other_tables(cli, case):
         (table(objectives='"cost"'), "optimise.objectives"),
         (table(objectives='"mass_kg", "mass_kg"'), "every objective once"),
         (table('"sprocket.tooth" = [3, 4]\n'), "did you mean 'sprocket.teeth'"),
-        (table('"sprocket.teeth" = [20, 20]\n'), "every value once"),
+        (table('"sprocket.teeth" = [20, 20]\n'), "each value may appear once"),
         (table('"sprocket.teeth" = [20]\n'), "must hold at least 2 values (holds 1)"),
-        (table('"sprocket.teeth" = [20, 20.0]\n'), "every value once"),
+        (table('"sprocket.teeth" = [20, 20.0]\n'), "each value may appear once"),
         (table('"sprocket.teeth" = 12\n'), "must be a range {low, high} or a list of values (got 12)"),
         (table('"sprocket.teeth" = {low = 20, high = 2000000000}\n'), "at most 100000 whole numbers"),
         (table('"load.power_kW" = {low = -1e308, high = 1e308}\n'), "less than 1.8e308 apart"),

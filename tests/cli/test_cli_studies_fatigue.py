@@ -131,8 +131,8 @@ def test_indices_are_of_the_life_that_governs(cli, case):
     assert shares["fatigue.load_factor"] == pytest.approx(0.2, abs=0.1)
     assert all(row["value_for_double_life"] is None for row in found["keys"])
     text = cli(*options, 8).out
-    assert text.count("-> not looked for") == 3
-    assert "warning: what doubles the life is not looked for" in text
+    assert text.count("-> not calculated") == 3
+    assert "warning: values that double the life are not calculated" in text
     done = cli(*options, 8, "--set", "load.tension_N=16500")
     assert done.code == 3
     assert "have a life of 0 h by contact fatigue" in done.err

@@ -191,7 +191,7 @@ def test_folder_and_going_on(cli, sweep, tmp_path):
         ('[grid]\n"a.b" = {from = 0.0, to = 2.0, count = 3, spacing = "log"}\n', "both ends above 0"),
         ('[grid]\n"a.b" = {from = inf, to = 2.0, count = 3}\n', "finite number"),
         ('[grid]\n"a.b" = {from = 2.0, to = 2.0, count = 3}\n', "must differ from from = 2"),
-        ('[grid]\n"a.b" = [20, 20]\n', "every value once"),
+        ('[grid]\n"a.b" = [20, 20]\n', "each value may appear once"),
         ('[grid]\n"a.b" = [[nan, 1.0]]\n', "must be"),
         ('[grid]\n"a.b" = [[1979-05-27]]\n', "must be"),
         (

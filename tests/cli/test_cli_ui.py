@@ -52,7 +52,7 @@ def test_setting_of_no_key(cli, installed, drive, setting):
 def test_setting_of_what_is_no_toml(cli, installed, tmp_path):
     (tmp_path / "a.toml").write_text("[")
     done = cli("ui", tmp_path / "a.toml", "--set", "load.power_kW=3")
-    assert done.code == 2 and "must be TOML" in done.err
+    assert done.code == 2 and "must be valid TOML" in done.err
 
 
 def test_port_that_is_taken(cli, monkeypatch, drive):

@@ -194,7 +194,7 @@ def test_a_drive_and_one_sprocket_live_side_by_side(cli, drive, tmp_path):
     assert (tmp_path / "out" / drive.stem / "drive.json").is_file()
     assert (tmp_path / "out" / "16b-20t-oiled" / "result.json").is_file()
     done = cli("compare", drive, "cases/16b-20t-oiled.toml", *SHORT)
-    assert done.code == 2 and "compare them apart" in done.err
+    assert done.code == 2 and "compare them separately" in done.err
 
 
 def test_drives_are_compared_part_by_part(cli, drive, tmp_path):

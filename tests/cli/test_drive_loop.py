@@ -376,7 +376,7 @@ def idler_fails(monkeypatch, tmp_path, loop):
 def test_a_failed_part_is_told_beside_the_lives_of_the_others(cli, idler_fails):
     done = cli("life", idler_fails)
     assert done.code == 5
-    assert "tensioner  no life: the rollers are not found" in " ".join(done.out.split("\n"))
+    assert "tensioner  failed: the rollers are not found" in " ".join(done.out.split("\n"))
     assert "Chain " in done.out and "motor" in done.out
     assert f"{idler_fails}: 'tensioner': the rollers are not found: use more nodes" in done.err
     found = json.loads(cli("life", idler_fails, "--json").out)
