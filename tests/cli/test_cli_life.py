@@ -263,7 +263,7 @@ def test_solve_for_prints_value_life_and_slope(cli, drive, conforms):
     assert found["elasticity"] == pytest.approx(-1.0, rel=1e-3)
     assert found["lowest"] <= found["value"] <= found["highest"]
     text = cli("life", path, *requested, "--set", "load={tension_N=3000, speed_rpm=100}").out
-    assert text.startswith(f"  Solved     load.speed_rpm = {found['value']:.6g} lives ")
+    assert text.startswith(f"  Solved     load.speed_rpm = {found['value']:.6g} lasts ")
     assert "1 % more of it gives 1 % less life" in text
 
 
