@@ -32,11 +32,12 @@ from wearsim.report.drive.drive_words import (
     worn_most_text,
 )
 from wearsim.report.drive.page_tables import wheel_of
-from wearsim.report.drive.report_page import SheetHead, sheet_html
+from wearsim.report.drive.report_page import sheet_html
 from wearsim.report.html.charts import Chart
 from wearsim.report.html.margins import Margin, margins
 from wearsim.report.html.page_content import case_page
 from wearsim.report.html.page_writer import render
+from wearsim.report.html.paper import SheetHead
 from wearsim.report.html.run_charts import along_chart, history_chart, tooth_load_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts, worn_out_chart

@@ -185,12 +185,11 @@ def maintain(
     ContactError, ConvergenceError
         No policy can be run.
     """
-    source = str(case) if isinstance(case, str | PathLike) else ""
     found = loaded(case if maintenance is None else with_table(case, "maintenance", maintenance))
     if readings is not None:
         check_ranges("maintain", {"error": error, "teeth": teeth}, _ALLOWED)
         with readings_file(readings) as file:
-            return YearPlanResult(year_plan(found, file, teeth, error, progress), source)
+            return YearPlanResult(year_plan(found, file, teeth, error, progress))
     if isinstance(found, Case):
         found.drive.check(found)
         return MaintenanceResult(compare_policies(found, lambda done, of: progress(done / of)))

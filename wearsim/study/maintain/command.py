@@ -1,6 +1,5 @@
 """``wearsim maintain``: when to replace the chain, and what that costs."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -71,7 +70,7 @@ def maintain(
             year = answer.maintain(
                 loaded, readings=readings, error=reading_error_percent, teeth=teeth, progress=progress
             )
-            shown.save(replace(year, source=str(case)), case)
+            shown.save(year, case)
             return
         found = answer.maintain(loaded, progress=progress)
     shown.save(found, case)

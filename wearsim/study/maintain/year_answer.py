@@ -22,14 +22,11 @@ class YearPlanResult(DrawnAnswer):
     ----------
     plan : YearPlan
         Parts, jobs and prices as objects.
-    source : str
-        What the case was given as, which the text names; empty where it was no file.
     """
 
     _tables = ("jobs", "parts")
 
     plan: YearPlan
-    source: str = ""
 
     @property
     def title(self) -> str:
@@ -45,7 +42,12 @@ class YearPlanResult(DrawnAnswer):
     @property
     def text(self) -> str:
         """What ``wearsim maintain`` prints with readings."""
-        return year_text(self.plan, self.source or self.plan.given.name)
+        return year_text(self.plan)
+
+    @property
+    def explained(self) -> str:
+        """The same with all assumptions."""
+        return year_text(self.plan, explain=True)
 
     @property
     def jobs(self) -> "pd.DataFrame":

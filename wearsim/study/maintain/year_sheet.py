@@ -15,8 +15,8 @@ _MOST_ROWS = 20
 """Jobs that the screen shows; files hold all."""
 
 
-def year_text(plan: YearPlan, source: str) -> str:
-    """Return the plan as ``wearsim maintain`` prints it with readings."""
+def year_text(plan: YearPlan, explain: bool = False) -> str:
+    """Return the plan as ``wearsim maintain`` prints it with readings, on request with its assumptions."""
     now = plan.state.log.machine
     table = jobs_table(plan)
     shown = AnswerTable(table.columns, _shown(plan))
@@ -24,7 +24,7 @@ def year_text(plan: YearPlan, source: str) -> str:
     rows = [
         *([Finding("More", f"{more} more jobs of the year: --out DIR writes them all")] if more else []),
         Finding("In total", _total(plan)),
-        *closing((*plan.assumptions, f"all else: wearsim check {source}"), plan.warnings),
+        *closing(plan.assumptions, plan.warnings, explain),
     ]
     title = f"Next 12 months, from {plan.state.day(now)}"
     return answer_text(
