@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 import wearsim
-from wearsim.catalogue.catalogues import chains
+from wearsim.catalogue.catalogues import Chain, chains
 from wearsim.drive.wear_task import wear_task
 from wearsim.result import Life, WearResult
 from wearsim.wear import trajectory
@@ -42,7 +42,7 @@ PRESSURE, HARDNESS = 600.0, 6000.0
 STAND_INS = {f"04B-{strands}": f"05B-{strands}" for strands in (1, 2, 3)}
 """Chains that the catalogue had when the cases were first drawn: without them all would be others."""
 
-DESIGNATIONS = sorted({*(chain.designation for chain in chains().values()), *STAND_INS})
+DESIGNATIONS = sorted({*(chain.designation for chain in chains().values() if chain.strands <= 3), *STAND_INS})
 LIMITS = ("", "", "min_tip_land_mm", "min_tooth_thickness_mm", "case_depth_mm")
 FADES = {0: "loaded to the ends", 1: "fading to the ends", 2: "fading smoothly"}
 
@@ -82,6 +82,14 @@ class Measured:
         return max(self.draw.tolerance, self.stated) + ROUNDING
 
 
+def tensile_by_rows(chain: Chain) -> float:
+    """Return the strength by which loads were first drawn, of B chains N times one row [N]."""
+    stem, _, strands = chain.designation.partition("-")
+    if not stem.endswith("B") or strands == "1":
+        return chain.tensile
+    return chain.strands * chains()[f"{stem}-1"].tensile
+
+
 def log_uniform(rng: Random, low: float, high: float) -> float:
     return float(f"{math.exp(rng.uniform(math.log(low), math.log(high))):.4g}")
 
@@ -114,7 +122,7 @@ def draw(rng: Random, folder: Path) -> Draw:
     teeth = round(log_uniform(rng, 9, 120))
     tables["sprocket"] = {"teeth": teeth, "profile": "evolute"}
     tables["mechanism"] = {"roller_slip_fraction": uniform(rng, 0.05, 1.0)}
-    tables["load"]["tension_N"] = chain.tensile * log_uniform(rng, 0.01, 0.2)
+    tables["load"]["tension_N"] = tensile_by_rows(chain) * log_uniform(rng, 0.01, 0.2)
     add_range(rng, tables, chain.pitch)
     if kind == "points":
         replace_flank(rng, tables, folder)

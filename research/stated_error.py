@@ -26,7 +26,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from random_lives import add_limit, add_range, draw, log_uniform, random_wear, uniform
+from random_lives import add_limit, add_range, draw, log_uniform, random_wear, tensile_by_rows, uniform
 
 import wearsim
 from wearsim.catalogue.catalogues import chains
@@ -74,7 +74,7 @@ class Judged:
 
 def strand_drive(rng: Random) -> Tables:
     """Draw an evolute sprocket on a strand, its nodes and tolerance left to their defaults."""
-    names = sorted({chain.designation for chain in chains().values()})
+    names = sorted({chain.designation for chain in chains().values() if chain.strands <= 3})
     chain = chains()[str(rng.choice([name for name in names if name.isascii()]))]
     depth = 0.5 * chain.roller_diameter * log_uniform(rng, 0.005, 0.2)
     wear, _ = random_wear(rng, depth, False)
@@ -83,7 +83,7 @@ def strand_drive(rng: Random) -> Tables:
         "chain": {"designation": chain.designation},
         "load": {
             "speed_rpm": log_uniform(rng, 10.0, 1000.0),
-            "tension_N": chain.tensile * log_uniform(rng, 0.01, 0.2),
+            "tension_N": tensile_by_rows(chain) * log_uniform(rng, 0.01, 0.2),
         },
         "wear": wear,
         "stop": {"critical_depth_mm": depth},
@@ -159,7 +159,7 @@ def wrap_drive(rng: Random) -> Tables:
             "pitch": str(rng.choice(["alternating", "uniform"])),
         },
         "load": {
-            "tension_N": chain.tensile * log_uniform(rng, 0.01, 0.12),
+            "tension_N": tensile_by_rows(chain) * log_uniform(rng, 0.01, 0.12),
             "speed_rpm": log_uniform(rng, 10.0, 1000.0),
         },
         "wear": wear,

@@ -144,7 +144,7 @@ def test_cut_off_is_the_spacing_of_the_smoothed_values(cli, case, table, tmp_pat
     ]
     # A turn and the coefficient are taken from the values.
     assert (counts[0] + 2) / (counts[1] + 2) == pytest.approx(2.0, abs=0.3)
-    text = cli("calibrate", path, readings, "--cutoff-mm", "2").out
+    text = cli("calibrate", path, readings, "--cutoff-mm", "2", "--explain").out
     assert "ISO 16610-21, cut-off 2 mm" in " ".join(text.split())
 
 

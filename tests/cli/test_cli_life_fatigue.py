@@ -144,6 +144,6 @@ def test_fatigue_that_governs_is_compared(cli, drive, tmp_path):
 
 
 def test_assumptions_tell_what_it_rests_on(cli, drive):
-    text = one_line(cli("check", drive(), "--set", HARD))
+    text = one_line(cli("check", drive(), "--explain", "--set", HARD))
     assert "formulas (21) to (26) of source 001, which are those of gears" in text
     assert "fatigue.load_factor = 1 (default)" in text

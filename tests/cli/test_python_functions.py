@@ -370,7 +370,7 @@ def test_error_of_a_reading_is_usually_that_of_the_command(answer, wrap, drive):
 
 def test_not_one_reading_is_refused(wrap, two):
     for given in ({}, {"depth": 0.01, "over_pins": 0.01}):
-        with pytest.raises(TypeError, match="one of depth, over_pins and elongation_percent"):
+        with pytest.raises(TypeError, match="one of depth, over_pins, size_over_pins and elongation_percent"):
             wearsim.remaining(wrap, 100, **given)
     with pytest.raises(wearsim.GeometryError, match="hours must be above 0"):
         wearsim.remaining(wrap, 0, depth=0.01)

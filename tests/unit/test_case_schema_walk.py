@@ -20,6 +20,7 @@ WITHOUT_EFFECT = {
     "drive.joint_application_factor": "only the rating that check prints (test_cli_check_rating.py)",
     "duty.power_share": "only drives of several driven sprockets (tests/cli/test_drive_loop.py)",
     "drive.joint_friction": "only heat and efficiency of a whole drive (tests/cli/test_drive_loop.py)",
+    "maintenance.currency": "only wearsim maintain (tests/verification/test_year_plan.py)",
     "maintenance.chain_price": "only wearsim maintain (tests/unit/test_maintain.py)",
     "maintenance.sprocket_price": "only wearsim maintain (tests/unit/test_maintain.py)",
     "maintenance.downtime_hours": "only wearsim maintain (tests/unit/test_maintain.py)",

@@ -28,6 +28,7 @@ BASES, CHANGES, OWN_CHAIN, WRAP, draw, edited = (
 WITHOUT_EFFECT = {
     **{key: why for key, why in OF_ONE["WITHOUT_EFFECT"].items() if key.startswith("lubrication.")},
     "title": "only shown above the answer",
+    "maintenance.currency": "only the plan (tests/verification/test_year_plan.py)",
     "maintenance.downtime_hours": "only the plan (tests/cli/test_drive_plan.py)",
     "maintenance.downtime_cost_per_hour": "only the plan (tests/cli/test_drive_plan.py)",
     "service.km_per_hour": "only how hours are shown (tests/cli/test_drive_report.py)",

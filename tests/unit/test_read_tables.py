@@ -107,7 +107,7 @@ def test_a_table_shows_the_keys_that_have_a_value(case):
     ],
 )
 def test_a_notebook_completes_keys(text, wanted, case, drive):
-    completer = pytest.importorskip("IPython.core.completer")
+    completer = pytest.importorskip("IPython.core.completer", reason="IPython is not installed")
     found = completer.IPCompleter(
         namespace={"case": case, "drive": drive}, use_jedi=False, evaluation="limited"
     )

@@ -40,7 +40,7 @@ def calibration_text(found: Calibration, explain: bool = False) -> str:
         )
         for value in found.values
     ]
-    widened = f", errors enlarged {found.scale:.3g} times as large" if found.scale > 1.0 else ""
+    widened = f", errors taken {found.scale:.3g} times as large" if found.scale > 1.0 else ""
     rows += [
         Finding(
             "Fit",

@@ -51,7 +51,7 @@ def counted_readings(found: ChainState) -> str:
     measured = len(found.log.readings) - gauges
     widened = found.posterior.scale
     return f"{measured} measured, {gauges} by a gauge" + (
-        f", errors enlarged {widened:.3g} times as large" if widened > 1.0 else ""
+        f", errors taken {widened:.3g} times as large" if widened > 1.0 else ""
     )
 
 
