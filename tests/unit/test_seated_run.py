@@ -12,6 +12,7 @@ import wearsim
 from tests.drives import depth_limit
 from wearsim.contact.hertz import half_width, peak_pressure
 from wearsim.contact.resting_engagement import NEW_MATE
+from wearsim.contact.stop_limits import StopLimit
 from wearsim.errors import ContactError, ConvergenceError
 from wearsim.kernels import wrap_stage as stage
 from wearsim.kernels import wrap_yielding_seats as seats
@@ -343,8 +344,23 @@ def test_a_bound_that_holds_is_not_run_again():
     for part, again in ((0.5, False), (0.995, True)):
         problem = WearProblem(of, LAW, LIMIT, part * life(whole))
         run, left = advance_resting(problem, 0.8 * error)
-        assert outlives(run, LIMIT[0].limit, left) is not again
+        assert outlives(problem, run, left) is not again
         assert (run.updates > 1.5 * run_seated(problem, 0).updates) is again
+
+
+def test_a_bound_holds_where_every_limit_is_kept():
+    """A limit that is 0.5 % deeper than the run at its horizon, beside that on the depth, twice as deep."""
+    of = contact()
+    half = 0.5 * life(run_seated(WearProblem(of, LAW, LIMIT, 1e12), 0))
+    run = run_seated(WearProblem(of, LAW, LIMIT, half), 0)
+    worn = float(run.depth[-1].max())
+    assert 1.5 * worn < LIMIT[0].limit
+    near = StopLimit("another", 1.005 * worn, lambda x, y, depth: 1.005 * worn - depth.max())
+    problem = WearProblem(of, LAW, (*LIMIT, near), half)
+    assert run_seated(problem, 0).met is None
+    assert outlives(problem, run, 0.004)
+    assert not outlives(problem, run, 0.006)
+    assert outlives(WearProblem(of, LAW, LIMIT, half), run, 0.006)
 
 
 def test_a_life_that_a_new_chain_has_spared_is_uncertain():

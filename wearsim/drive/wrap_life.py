@@ -169,7 +169,7 @@ def _run(
         run = run_resting(replace(task, horizon=until), 0, float(cycles), watch)
         error += difference(run, check)
     error *= task.clock.amplification
-    if error > tolerance and not outlives(run, task.depth_limit, error):
+    if error > tolerance and not outlives(task, run, error):
         warnings.append(
             f"{exceeds(error, tolerance)}, even with steps halved and phases doubled: use more nodes or "
             "phases, or a larger run.life_tolerance"

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from wearsim.contact.resting_engagement import RestingContact
+from wearsim.contact.resting_engagement import MateWear, RestingContact
 from wearsim.wear.implicit_steps import RestingTrajectory, part_of, reported_progress, run_seated
 from wearsim.wear.problem import WearProblem
 from wearsim.wear.trajectory import difference
@@ -19,7 +19,7 @@ _LEVELS, _REFINED_LEVELS = (1, 2, 3), (1, 2)
 _KEPT = 0.2
 """Part of the progress still to come that is kept for finer runs, of which nobody knows before."""
 
-_COARSE = 0.1
+_COARSE = 0.2
 """Part of the time of a run and the coarser one before it that this one takes."""
 
 _SAFETY, _AT_LEAST = 1.5, 5e-3
@@ -65,9 +65,17 @@ def spared(run: RestingTrajectory, depth_limit: float, error: float) -> float:
     return float((1.0 + error) * run.cycles[-1] / run.cycles[near[0]] - 1.0) if near.size else error
 
 
-def outlives(run: RestingTrajectory, depth_limit: float, error: float) -> bool:
-    """Tell whether a run to its horizon would come there with depths that are wrong by its error, too."""
-    return run.met is None and not run.lost and (1.0 + error) * float(run.depth[-1].max()) < depth_limit
+def outlives(problem: WearProblem[RestingContact], run: RestingTrajectory, error: float) -> bool:
+    """Tell whether a run to its horizon would keep all limits if its depths were wrong by its error."""
+    if run.met is not None or run.lost:
+        return False
+    depth = (1.0 + error) * run.all_depth[-1]
+    if not depth.max() < problem.depth_limit:
+        return False
+    contact, wear = problem.contact, MateWear(float(run.elongation[-1]), float(run.mate_depth[-1]))
+    x, y = contact.profile.receded(depth)
+    within = all(problem.met(*body) is None for body in zip(x, y, depth, strict=True))
+    return within and contact.holds(x, y, wear)
 
 
 def advance_resting(
@@ -132,11 +140,7 @@ def advance_resting(
     error = _stated(run, other, 0)
     for candidate, levels in ((contact, _LEVELS), (finer, _REFINED_LEVELS)):
         for level in levels:
-            if (
-                bound(run, error) <= life_tolerance
-                or candidate is None
-                or outlives(run, problem.depth_limit, error)
-            ):
+            if bound(run, error) <= life_tolerance or candidate is None or outlives(problem, run, error):
                 break
             begin = 1.0 - _KEPT ** next(tried)
             end = begin + (1.0 - _KEPT) * (1.0 - begin)
