@@ -29,6 +29,13 @@ def check_free(path: Path, force: bool) -> None:
         raise OutputError(f"{path}: must not exist yet, but does: choose another place or --force")
 
 
+def check_file(path: Path, force: bool) -> None:
+    """Raise where a file cannot be written or replaced."""
+    check_free(path, force)
+    if path.is_dir():
+        raise OutputError(f"{path}: must be a file, but is a folder: choose another place")
+
+
 MARKER = ".wearsim"
 """File in every folder of wearsim: a head with who wrote it, then the names of the files, one a line."""
 

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from wearsim.case.keys import MaintenanceTable
+from wearsim.case.keys import maintenance_of
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.renewal import SAME, least_cost_rate
@@ -147,7 +147,7 @@ def part_lives(found: DriveLife) -> dict[str, Life | LowerBound]:
 
 def drive_prices(drive: DriveCase) -> Prices | None:
     """Return the prices of the parts of a drive; None where one is not given."""
-    tables = {one.name: MaintenanceTable(**one.case.inputs.get("maintenance", {})) for one in drive.sprockets}
+    tables = {one.name: maintenance_of(one.case.inputs) for one in drive.sprockets}
     first = tables[drive.sprockets[0].name]
     prices = {
         wheel.name: price

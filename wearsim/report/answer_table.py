@@ -132,6 +132,17 @@ def life_columns(
     return [*(Column(name, partial(bounded, name)) for name in names), Column("", of, head, hours)]
 
 
+def in_currency(head: str, currency: str | None) -> str:
+    """Return the head of a column of costs with their currency, where it is named.
+
+    Examples
+    --------
+    >>> in_currency("cost", "EUR"), in_currency("cost", None)
+    ('cost, EUR', 'cost')
+    """
+    return f"{head}, {currency}" if currency else head
+
+
 def csv_of(frame: "pd.DataFrame") -> str:
     """Return a table of pandas as the content of a file."""
     return frame.to_csv(index=False, lineterminator="\n")

@@ -16,7 +16,7 @@ from wearsim.case.keys.drive_tables import (
     SprocketTable,
     TakeUpTable,
 )
-from wearsim.case.keys.maintenance_table import MaintenanceTable
+from wearsim.case.keys.maintenance_table import MaintenanceTable, maintenance_of
 from wearsim.case.keys.study_tables import OptimiseTable, ServiceTable, Uncertainty
 from wearsim.case.keys.wear_tables import (
     FilmTable,
@@ -53,6 +53,7 @@ __all__ = [
     "Table",
     "TakeUpTable",
     "WearTable",
+    "maintenance_of",
 ]
 
 

@@ -1,5 +1,6 @@
 """[maintenance]: what parts and a stop cost, and when a chain is replaced."""
 
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
@@ -62,3 +63,8 @@ class MaintenanceTable(Table):
             for key, other in needs
             if getattr(self, key) is not None and getattr(self, other) is None
         ]
+
+
+def maintenance_of(inputs: Mapping[str, Any]) -> MaintenanceTable:
+    """Return [maintenance] of the complete tables of a case, with nothing in it where there is none."""
+    return MaintenanceTable(**inputs.get("maintenance", {}))

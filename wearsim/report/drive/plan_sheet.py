@@ -5,10 +5,11 @@ from functools import partial
 from typing import Any
 
 from wearsim._version import ANSWER_HEAD
+from wearsim.case.keys import maintenance_of
 from wearsim.drive.maintenance import DrivePlan
 from wearsim.drive.replacement_rules import ReplacementRule, Stop
 from wearsim.quantities import grouped
-from wearsim.report.answer_table import AnswerTable, Column, csv_of, table_of
+from wearsim.report.answer_table import AnswerTable, Column, csv_of, in_currency, table_of
 from wearsim.report.drive.plan_words import rule_text
 from wearsim.report.text_lines import Finding, answer_text, closing, fenced
 from wearsim.result import Life, LowerBound, life_keys
@@ -118,7 +119,12 @@ def _table(plan: DrivePlan) -> AnswerTable[ReplacementRule]:
     sprockets = [name for name in plan.lives if name != CHAIN]
     each = {name: [name] for name in sprockets}
     groups = {CHAIN: [CHAIN], **(each if len(sprockets) <= _MAX_COLUMNS else {"sprockets": sprockets})}
-    rules, cost = plan.rules, None if plan.rules[0].cost is None else _with_currency(plan, "cost")
+    rules, cost = (
+        plan.rules,
+        None
+        if plan.rules[0].cost is None
+        else in_currency("cost", maintenance_of(plan.drive.chain_case.inputs).currency),
+    )
     columns: list[Column[ReplacementRule]] = [
         Column("", lambda rule: rule.name, "in 1000 h", side="<"),
         Column("", lambda rule: _limited(_PER * rule.stop_rate, rule.stops_at_most), "stops"),
@@ -126,11 +132,6 @@ def _table(plan: DrivePlan) -> AnswerTable[ReplacementRule]:
         Column("", lambda rule: _limited(_PER * (rule.cost or 0.0), bool(rule.at_most)), cost),
     ]
     return AnswerTable(columns, rules if len(rules) <= _MAX_RULES else (*rules[:_FIRST], rules[-1]))
-
-
-def _with_currency(plan: DrivePlan, head: str) -> str:
-    currency = (plan.drive.chain_case.inputs.get("maintenance") or {}).get("currency")
-    return f"{head}, {currency}" if currency else head
 
 
 def _counted(names: Sequence[str], rule: ReplacementRule) -> str:

@@ -10,8 +10,7 @@ from markupsafe import Markup
 from wearsim._version import __version__
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.maintenance import DrivePlan, drive_plan, planned_events
-from wearsim.errors import OutputError
-from wearsim.files import check_folder, check_free, new_folder, write_file
+from wearsim.files import check_file, check_folder, new_folder, write_file
 from wearsim.geometry.scene import Circle, Scene
 from wearsim.quantities import grouped
 from wearsim.report import html
@@ -124,9 +123,7 @@ def check_sheet(out: Path, force: bool) -> None:
     if is_pdf(out):
         check_pdf(out, force)
     elif is_page(out):
-        check_free(out, force)
-        if out.is_dir():
-            raise OutputError(f"{out}: must be a file, but is a folder: choose another place")
+        check_file(out, force)
     else:
         check_folder(out, force)
 

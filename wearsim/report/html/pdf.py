@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 from wearsim.errors import OutputError
-from wearsim.files import check_free, write_file
+from wearsim.files import check_file, write_file
 
 _NAMES = (
     *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"),
@@ -47,9 +47,7 @@ def is_pdf(out: Path) -> bool:
 
 def check_pdf(out: Path, force: bool) -> None:
     """Raise where a PDF cannot be written or replaced, or nothing can print it."""
-    check_free(out, force)
-    if out.is_dir():
-        raise OutputError(f"{out}: must be a file, but is a folder: choose another place")
+    check_file(out, force)
     _browser(out)
 
 

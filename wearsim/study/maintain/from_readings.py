@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from wearsim.case.keys import MaintenanceTable
+from wearsim.case.keys import maintenance_of
 from wearsim.case.model import Case
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.life import drive_life
@@ -93,13 +93,12 @@ def year_plan(
     prices = _of_all_chains(_prices(given), state)
     until = year_of_hours(state.case.inputs["service"]["hours_per_day"])
     jobs = [*replacements(parts, until, prices), *_relubrications(state, until)]
-    table = (given.chain_case.inputs.get("maintenance") or {}).get("currency", "")
     return YearPlan(
         given=given,
         state=state,
         parts=parts,
         prices=prices,
-        currency=table,
+        currency=maintenance_of(given.chain_case.inputs).currency or "",
         teeth=teeth,
         jobs=tuple(sorted(jobs, key=lambda job: job.hours)),
         warnings=(*state.warnings, *_not_known(parts, until)),
@@ -155,7 +154,7 @@ def _parts(state: ChainState, lives: Mapping[str, Life | LowerBound]) -> tuple[P
 def _prices(given: Case | DriveCase) -> Prices | None:
     if isinstance(given, DriveCase):
         return drive_prices(given)
-    table = MaintenanceTable(**given.inputs.get("maintenance", {}))
+    table = maintenance_of(given.inputs)
     if table.chain_price is None or table.sprocket_price is None:
         return None
     return Prices(table.chain_price, {SPROCKET: table.sprocket_price}, table.stop_cost)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from wearsim.case.keys import MaintenanceTable
+from wearsim.case.keys import MaintenanceTable, maintenance_of
 from wearsim.case.model import Case
 from wearsim.drive.part_life import simulate
 from wearsim.drive.wrap_life import wrap_of
@@ -120,7 +120,7 @@ def maintain(case: Case, progress: Progress = lambda done, of: None) -> Maintena
     drive = wrap_drive(case, "'maintain' needs a chain that wraps the sprocket")
     check_steady_lubricant(case, "maintain", "see what relubrication does with wearsim lubricate")
     check_no_running_in(case, "maintain")
-    table = MaintenanceTable(**case.inputs.get("maintenance", {}))
+    table = maintenance_of(case.inputs)
     limit: float = case.inputs["stop"]["elongation_percent"]
     elongations = table.replace_at_percent or [*(e for e in POLICIES if e < limit), limit]
     counts = meetings_around(case, drive)

@@ -4,7 +4,7 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.answer_table import AnswerTable, Column, life_columns
+from wearsim.report.answer_table import AnswerTable, Column, in_currency, life_columns
 from wearsim.report.text_lines import answer_text, closing
 from wearsim.result import Life, LowerBound
 from wearsim.study.maintain.model import MaintenancePlan, ReplacementPolicy
@@ -13,7 +13,7 @@ from wearsim.study.maintain.tooth_count import ToothCount
 
 def policies_table(plan: MaintenancePlan) -> AnswerTable[ReplacementPolicy]:
     """Return a row for every policy."""
-    cost = "cost per 1000 h" + (f", {plan.currency}" if plan.currency else "")
+    cost = in_currency("cost per 1000 h", plan.currency)
     return AnswerTable(
         [
             Column("replace_at_percent", _percent, "replace at", "{:g} %"),

@@ -102,9 +102,7 @@ def kept_parts(parts: Sequence[PartNow], jobs: Sequence[Job]) -> Iterator[Job]:
             yield Job(one.left, KEEP, (one.name,), 0.0, at_least=not one.worn_out)
 
 
-def relubrications(
-    first: float, interval: float, until: float, cost: float | None, part: str = "drive"
-) -> list[Job]:
+def relubrications(first: float, interval: float, until: float, cost: float | None) -> list[Job]:
     """Return the relubrications until some hours from now.
 
     Examples
@@ -113,7 +111,7 @@ def relubrications(
     [50.0, 150.0, 250.0]
     """
     count = math.floor((until - first) / interval) + 1 if first <= until else 0
-    return [Job(first + number * interval, RELUBRICATE, (part,), cost) for number in range(count)]
+    return [Job(first + number * interval, RELUBRICATE, ("drive",), cost) for number in range(count)]
 
 
 def total(jobs: Sequence[Job]) -> float | None:

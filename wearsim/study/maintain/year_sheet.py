@@ -6,7 +6,7 @@ from typing import Any
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.answer_table import AnswerTable, Column
+from wearsim.report.answer_table import AnswerTable, Column, in_currency
 from wearsim.report.text_lines import Finding, answer_text, closing, fenced
 from wearsim.study.maintain.from_readings import YearPlan
 from wearsim.study.maintain.year_plan import KEEP, Job, PartNow, used_percent
@@ -63,7 +63,6 @@ def money(plan: YearPlan, amount: float) -> str:
 
 def jobs_table(plan: YearPlan) -> AnswerTable[Job]:
     """Return a row for each job, and for each part that is kept."""
-    cost = "cost" + (f", {plan.currency}" if plan.currency else "")
     return AnswerTable(
         [
             Column("date", partial(_day, plan), "day", side="<"),
@@ -73,7 +72,12 @@ def jobs_table(plan: YearPlan) -> AnswerTable[Job]:
             Column("job", lambda job: job.job, "job", side="<"),
             Column("parts", lambda job: ", ".join(job.parts), "parts", side="<"),
             Column("hours", lambda job: job.hours, "in", lambda hours: f"{grouped(hours)} h"),
-            Column("cost", lambda job: None if job.job == KEEP else job.cost, cost, grouped),
+            Column(
+                "cost",
+                lambda job: None if job.job == KEEP else job.cost,
+                in_currency("cost", plan.currency),
+                grouped,
+            ),
         ],
         plan.rows,
     )

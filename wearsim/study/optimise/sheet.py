@@ -9,7 +9,7 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column, plain
-from wearsim.report.chain_first import is_of_form
+from wearsim.report.chain_first import STOP, is_of_form
 from wearsim.report.study_files import save_figures, save_files
 from wearsim.report.text_lines import closing_lists, counts_by_kind
 from wearsim.result.ends import CHAIN
@@ -95,7 +95,7 @@ def optimise_warnings(outcome: OptimiseOutcome) -> tuple[str, ...]:
             "lives beyond run.horizon_hours count as lives up to it, and which of them is longest is not "
             "known: raise it"
         )
-    by_chain = [one.number for one in outcome.front if one.stop in ("elongation_percent", CHAIN)]
+    by_chain = [one.number for one in outcome.front if one.stop in (STOP, CHAIN)]
     if by_chain and "life_hours" in study.objectives and any(map(is_of_form, study.space.keys)):
         found.append(
             f"the chain ends first in {len(by_chain)} of {len(outcome.front)} best designs: their lives are "
