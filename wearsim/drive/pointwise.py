@@ -23,7 +23,7 @@ from wearsim.wear.trajectory import Trajectory, check_fold, difference
 
 
 def simulate_points(case: Case, progress: Callable[[float], None] = lambda part: None) -> WearResult:
-    """Wear the flank of a case on a strand or under a table of loads; cycle by cycle, progress is told."""
+    """Wear the flank of a case on a strand or under a table of loads; cycle by cycle, call `progress`."""
     warnings = list(case.warnings)
     new = case.drive.mechanism(case)
     settled = _settled_life(case, new, warnings, progress)

@@ -136,7 +136,7 @@ class _CycleRun:
         check_sawtooth(self.contact, self.depth, self.ran, self.depth_limit)
 
     def _tell(self) -> None:
-        """Tell how much of the depth or of the horizon is done; it only rises."""
+        """Call `progress` with the fraction of the depth or of the horizon that is done; it only rises."""
         part = max(float(self.depth.max()) / self.depth_limit, self.cycles / self.problem.horizon)
         self.done = max(self.done, min(1.0, part))
         self.progress(self.done)
@@ -236,7 +236,7 @@ def run_per_cycle(
 ) -> Trajectory:
     """Wear a flank update by update until a stop limit is met or the horizon is reached.
 
-    Of a contact that passes, `progress` is told how much is done.
+    For a contact that passes, `progress` is called with the fraction done.
     """
     if isinstance(problem.contact, RestingContact):
         # Not imported for contacts that pass.

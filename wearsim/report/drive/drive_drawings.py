@@ -50,7 +50,7 @@ def layout_sketch(drive: DriveCase) -> Markup:
 
 
 def lives_bars(plan: DrivePlan) -> Markup:
-    """Return a bar for every part: each stretch is one of them, dashed where no life is known of it."""
+    """Return a bar for every part: each stretch is one of them, dashed where nothing is known of it."""
     until = _shown_hours(plan)
     height = _ROW * len(plan.lives) + _AXIS
     alt = f"Bars of the lives of {', '.join(plan.lives)} over {grouped(until)} h."

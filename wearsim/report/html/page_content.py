@@ -72,7 +72,7 @@ class CasePage:
     chain_tables: list[HtmlTable]  # what ends first, published rules and events, where a chain wraps it
     tooth: list[Chart]  # the flank before and after
     charts: list[Chart]  # all others
-    sketch: Markup  # the drive; empty where no life is known of it
+    sketch: Markup  # the drive; empty where no more than a flank is known
     pictures: dict[str, str]  # still pictures as data URIs, by the stems that charts name
     inputs: list[Input]  # every key
     sources: list[tuple[str, str]]  # of the catalogue's numbers

@@ -156,7 +156,8 @@ def _missed(study: LubricationStudy, missed: MissedRelubrication) -> str:
         lost = "no life of any part"
     cost = ""
     if missed.cost is not None:
-        cost = f" and {'money' if missed.cost >= 0.0 else 'saves'} {grouped(abs(missed.cost))}"
+        amount = grouped(abs(missed.cost))
+        cost = f", which is worth {amount}" if missed.cost >= 0.0 else f" and saves {amount}"
     every = _interval(study, missed.interval)
     return f"skipping one relubrication of those every {every} costs {lost}{cost}"
 

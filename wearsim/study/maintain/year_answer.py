@@ -73,4 +73,4 @@ class YearPlanResult(DrawnAnswer):
         return {}
 
     def _files(self) -> Mapping[str, str]:
-        return year_files(self.plan, self.text)
+        return year_files(self.plan, self.explained)
