@@ -49,6 +49,13 @@ life_tolerance = 0.1
 horizon_hours = 100
 """
 
+SLOW_DRIVE = (
+    DRIVE.replace("phases = 2", "phases = 8")
+    .replace("nodes = 51", "nodes = 601")
+    .replace("life_tolerance = 0.1\nhorizon_hours = 100", "life_tolerance = 0.001\nhorizon_hours = 300")
+)
+"""Takes longer than its estimate, so that it can be seen."""
+
 
 def answer_of(path):
     return " ".join(drive_text(drive_life(load_drive(path)), str(path)).split())
@@ -114,7 +121,7 @@ def test_faults_and_new_tables_of_a_sprocket(watched, serve):
 
 
 def test_only_the_last_of_several_edits_is_answered(watched, serve):
-    server = serve(DRIVE.replace("phases = 2", "phases = 8"))
+    server = serve(SLOW_DRIVE)
     page = opened(watched, server)
     page.evaluate(
         "() => { window.seen = []; new MutationObserver(() => window.seen.push("

@@ -60,6 +60,8 @@ speed_rpm = 900
 [wear]
 condition = "hardened, oiled"
 """
+SLOW_WRAP = WRAP.replace("nodes = 301", "nodes = 601") + "[run]\nlife_tolerance = 0.01\n"
+"""Takes longer than its estimate, so that it can be seen."""
 GEARS = """\
 format_version = 1
 title = "Gears"
@@ -345,7 +347,7 @@ def test_a_table_of_the_duty_is_added_filled_and_removed(watched, serve):
 
 
 def test_a_wrap_shows_an_estimate_then_its_life_and_only_of_the_last_input(watched, serve):
-    server = serve(WRAP)
+    server = serve(SLOW_WRAP)
     page = opened(watched, server)
     page.evaluate(
         "() => { window.seen = []; new MutationObserver(() => window.seen.push("
@@ -398,7 +400,7 @@ def test_fifty_edits_and_absurd_values(watched, serve):
 
 
 def test_closing_the_page_ends_its_calculation(watched, context, serve):
-    server = serve(WRAP)
+    server = serve(SLOW_WRAP)
     page = context.new_page()
     page.goto(server.url)
     page.wait_for_selector('.ws-state[data-state="estimate"]', timeout=300_000)
@@ -408,7 +410,7 @@ def test_closing_the_page_ends_its_calculation(watched, context, serve):
 
 
 def test_the_server_stops_while_it_computes(watched, serve):
-    server = serve(WRAP)
+    server = serve(SLOW_WRAP)
     watched.goto(server.url)
     watched.wait_for_selector('.ws-state[data-state="estimate"]', timeout=60_000)
     start = time.monotonic()

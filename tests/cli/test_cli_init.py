@@ -106,6 +106,9 @@ def test_a_drive_is_what_is_known_of_it(cli, tmp_path):
         ({"shock": "heavy"}, "drive", "service_factor", 1.8),
         ({"shock": "smooth"}, "drive", "service_factor", 1.0),
         ({"lubrication": "dry"}, "wear", "condition", "hardened, dry"),
+        ({"lubrication": "dry"}, "lubrication", "lubricant", "dry"),
+        ({"environment": "dust"}, "lubrication", "environment", "dust"),
+        ({"tooth_hardness": "normalised"}, "wear", "condition", "normalised, oiled"),
     ],
 )
 def test_every_option_counts(start, options, table, key, value):
@@ -120,9 +123,9 @@ def test_every_option_counts(start, options, table, key, value):
         ("Oil bath", "continuous", "hardened, oiled"),
         ("forced", "continuous", "hardened, oiled"),
         ("continuous", "continuous", "hardened, oiled"),
-        ("periodic", "periodic", "normalised, greased"),
-        ("manual", "periodic", "normalised, greased"),
-        ("grease", "periodic", "normalised, greased"),
+        ("periodic", "periodic", "hardened, greased"),
+        ("manual", "periodic", "hardened, greased"),
+        ("grease", "periodic", "hardened, greased"),
         ("dry", "periodic", "hardened, dry"),
     ],
 )
@@ -141,12 +144,11 @@ def test_supply_of_lubricant_leaves_the_hours(cli, tmp_path):
     case |= {"mechanism": {"phases": 1}, "run": {"life_tolerance": 0.1, "horizon_hours": 50}}
     for one in case["sprocket"]:
         one["nodes"] = 41
-    found, silent = (
-        drive_life(load_drive(tables)).complete()
-        for tables in (case, {key: table for key, table in case.items() if key != "lubrication"})
-    )
+    without = {key: table for key, table in case.items() if key != "lubrication"}
+    without["wear"] = {"condition": "hardened, dry"}
+    found, silent = (drive_life(load_drive(tables)).complete() for tables in (case, without))
     assert found.parts == silent.parts
-    assert found.warnings[0].startswith("lubrication 'dry', where 'oil-bath' is recommended")
+    assert found.warnings[0].startswith("lubrication 'dry', where 'oil bath' is recommended")
     assert any("outside a rating" in text for text in found.warnings[1:])
 
 
@@ -182,7 +184,7 @@ def test_without_a_length_about_40_pitches(start):
 
 
 @pytest.mark.parametrize("length", [{}, {"centre": "1003.7"}, {"links": "122"}])
-@pytest.mark.parametrize("lubrication", ["oil-bath", "grease", "dry"])
+@pytest.mark.parametrize("lubrication", ["oil-bath", "greased", "dry"])
 @pytest.mark.parametrize("shock", ["smooth", "moderate", "heavy"])
 def test_lines_are_short_and_explained(cli, length, lubrication, shock):
     options = EXAMPLE | {f"--{name}": value for name, value in length.items()}
@@ -275,8 +277,9 @@ def test_all_faults_at_once(cli):
 
 
 def test_answers_of_a_terminal_are_options(asked, cli):
-    order = ("chain", "driver", "driven", "rpm", "centre", "lubrication", "hours-per-day", "shock", "power")
-    done = asked(*(EXAMPLE[f"--{name}"] for name in order))
+    order = ("chain", "driver", "driven", "rpm", "centre", "lubrication", "environment")
+    order += ("tooth-hardness", "hours-per-day", "shock", "power")
+    done = asked(*(EXAMPLE.get(f"--{name}", "") for name in order))
     assert done.exit_code == 0
     assert done.output.endswith(cli("init", *words(EXAMPLE)).out)
     for words_of_it in ("Speed of the driver in rpm [150]: ", "Running hours per day [8]: ", "Power in kW ["):
@@ -284,7 +287,7 @@ def test_answers_of_a_terminal_are_options(asked, cli):
 
 
 def test_a_terminal_may_answer_nothing(asked, cli, monkeypatch):
-    done = asked(*[""] * 9)
+    done = asked(*[""] * 11)
     assert done.exit_code == 0
     monkeypatch.setattr("wearsim.cli.init.at_terminal", lambda: False)
     assert done.output.endswith(cli("init").out)
@@ -292,7 +295,7 @@ def test_a_terminal_may_answer_nothing(asked, cli, monkeypatch):
 
 def test_a_terminal_is_asked_again_for_what_cannot_be(asked, tmp_path):
     path = tmp_path / "asked.toml"
-    answers = ("12C", "12B-1", "21", "57", "", "50", "", "", "", "", "900")
+    answers = ("12C", "12B-1", "21", "57", "", "50", *[""] * 6, "900")
     done = asked(*answers, options=("--out", str(path)))
     assert done.exit_code == 0
     assert "Error: no such chain in the catalogue; did you mean '12B'" in done.output

@@ -62,7 +62,7 @@ def test_answer_on_screen(cli, drive):
     for part in (
         "cycles at 100 rpm) until 0.02 mm is worn off; numerical error < 0.1 %",
         "Band ",
-        " over the band of the wear coefficient",
+        " over the band of the wear rate",
         "Worn most ",
         " mm from the root (flank ",
         "MPa",

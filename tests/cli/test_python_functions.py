@@ -522,9 +522,11 @@ def test_select(answer):
         "--strands",
         "1-2",
     )
-    expected = answer("select", *options, "--centre", 600, "--lubrication", "grease")
+    expected = answer(
+        "select", *options, "--centre", 600, "--lubrication", "greased", "--environment", "dust"
+    )
     asked = {"power": "4 hp", "rpm": 200, "ratio": 2, "hours": 8000, "series": ["B"], "strands": (1, 2)}
-    found = wearsim.select(**asked, centre=600, lubrication="grease")
+    found = wearsim.select(**asked, centre=600, lubrication="greased", environment="dust")
     assert found.summary() == expected
     assert list(found.drives["designation"]) == [one["designation"] for one in expected["drives"]]
     assert is_shown(found, "drives")

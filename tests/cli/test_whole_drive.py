@@ -137,7 +137,7 @@ def test_the_wear_of_one_sprocket_leaves_the_joints_of_the_chain_alone(cli, tmp_
     """Joints take the state of the drive, at every sprocket, as there is one chain."""
     path = tmp_path / "drive.toml"
     text = two_sprockets.replace("[joint]\nspecific_wear_rate_mm2_per_N = 1e-8\n", "")
-    text = text.replace("specific_wear_rate_mm2_per_N = 5e-9", 'condition = "unhardened, dry"')
+    text = text.replace("specific_wear_rate_mm2_per_N = 5e-9", 'condition = "normalised, dry"')
     path.write_text(text.replace('name = "roll"', 'name = "roll"\nwear = {condition = "hardened, oiled"}'))
     found = drive_life(load_drive(path, ["run.horizon_hours=600"]))
     chains = [result.parts["chain"].hours_run for result in found.results.values()]

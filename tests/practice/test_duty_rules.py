@@ -108,7 +108,7 @@ def test_lubrication_is_judged_by_the_fastest_block():
     assert practice(slow, lubrication=drip).lubrication == ""
     found = practice(duty=blocks((0.5, FULL), (0.5, slow)), lubrication=drip)
     assert found.lubrication_factor == 0.4
-    assert "'oil-bath' is recommended at 1.35 m/s" in found.lubrication
+    assert "'oil bath' is recommended at 1.35 m/s" in found.lubrication
 
 
 def test_impact_takes_the_hours_of_the_whole_duty():

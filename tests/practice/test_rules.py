@@ -127,7 +127,7 @@ def test_numbers_and_words_that_cannot_be(drive, changes, words):
 def test_speed_limits_of_lubrication_are_those_in_feet_a_minute(pitch, drip, bath):
     assert lubrication_speed_limits(pitch) == pytest.approx((drip * 0.00508, bath * 0.00508), abs=0.06)
     assert recommended_lubrication(pitch, 0.98 * drip * 0.00508) == "drip"
-    assert recommended_lubrication(pitch, 1.02 * drip * 0.00508) == "oil-bath"
+    assert recommended_lubrication(pitch, 1.02 * drip * 0.00508) == "oil bath"
     assert recommended_lubrication(pitch, 1.02 * bath * 0.00508) == "forced"
 
 
@@ -141,29 +141,29 @@ def test_speed_limits_of_lubrication_do_not_jump(edge):
     ("supplied", "environment", "state", "factor"),
     [
         ("forced", "clean", "better than recommended", 1.5),
-        ("oil-bath", "clean", "as recommended", 1.0),
+        ("oil bath", "clean", "as recommended", 1.0),
         ("drip", "clean", "one type below", 0.4),
-        ("oil-bath", "dust", "one type below", 0.4),
+        ("oil bath", "dust", "one type below", 0.4),
         ("drip", "dust", "insufficient", 0.1),
-        ("periodic", "clean", "insufficient", 0.1),
-        ("oil-bath", "mud", "insufficient, dirty", 0.03),
+        ("manual", "clean", "insufficient", 0.1),
+        ("oil bath", "mud", "insufficient, dirty", 0.03),
         ("dry", "clean", "dry, clean", 0.04),
         ("dry", "wet", "dry, dirty", 0.008),
     ],
 )
 def test_life_with_another_lubrication_than_a_bath(drive, supplied, environment, state, factor):
-    found = lubrication_life_factor(supplied, "oil-bath", environment)
+    found = lubrication_life_factor(supplied, "oil bath", environment)
     assert (found.state, found.factor) == (state, factor)
     assert found.low <= found.factor <= found.high
     other = drive(10, lubrication=supplied, environment=environment)  # 1.33 m/s
-    assert other.recommended == "oil-bath"
+    assert other.recommended == "oil bath"
     expected = {name: factor * one for name, one in hours(drive(10)).items()}
     assert hours(other) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize("supplied", ["periodic", "grease"])
+@pytest.mark.parametrize("supplied", ["manual", "greased"])
 def test_a_brush_now_and_then_is_less_than_drip(supplied):
-    assert lubrication_life_factor(supplied, "drip").state == "periodic"
+    assert lubrication_life_factor(supplied, "drip").state == "manual"
 
 
 @pytest.mark.parametrize(

@@ -136,7 +136,7 @@ def joint_text(case):
     [
         ("hardened, oiled", 1.2e-10, "9e-11 to 1.5e-10; clean and well lubricated"),
         ("normalised, greased", 1.8e-10, "order of magnitude by a ratio: typical 1.5 times"),
-        ("unhardened, dry", 7e-9, "order of magnitude by ratios: low 8.8 times that of oil"),
+        ("normalised, dry", 7e-9, "order of magnitude by ratios: low 8.8 times that of oil"),
         ("soil-contaminated", 1e-8, "order of magnitude, no joint measured"),
     ],
 )

@@ -104,7 +104,7 @@ def test_all_faults_of_all_tables_in_the_order_of_their_lines(faults):
         (
             "drive.toml:12",
             "wear.condition: no such wear condition; did you mean 'hardened, oiled' or "
-            "'hardened, dry' or 'unhardened, dry'? (wearsim list wear-conditions shows them all) "
+            "'hardened, dry' or 'hardened, greased'? (wearsim list wear-conditions shows them all) "
             "(got 'hardened, oild')",
         ),
         (

@@ -391,6 +391,7 @@ CHANGES = {
     "load.speed_rpm": [("strand", 101), ("power drive", 101), ("prescribed", 101)],
     "wear.law": [("strand", "power", "wear.condition")],
     "wear.condition": [("strand", "soil-contaminated"), ("archard", "hardened, dry", "wear.condition")],
+    "wear.tooth_hardness": [("lubricated", "normalised"), ("archard", "hardened", "wear.tooth_hardness")],
     "wear.specific_wear_rate_mm2_per_N": [("archard", 2e-10), ("strand", 1e-10, "wear.condition")],
     "wear.coefficient": [("power law", 2e-14), ("drozdov", 2e-6)],
     "wear.constants": [("strand", {"k": 1.0}, "wear.constants")],
@@ -553,6 +554,15 @@ CHANGES |= {
     "lubrication.fades_over_km": [("by km", 50.0)],
     "lubrication.fades_over_sliding_m": [("by way", 5.0)],
     "lubrication.dry_factor": [("lubricated", 12.0), ("lubricated", 0.5, "lubrication.dry_factor")],
+    "lubrication.lasts_band_factor": [
+        ("lubricated", 3.0),
+        ("lubricated", 0.5, "lubrication.lasts_band_factor"),
+    ],
+    "lubrication.dry_band_factor": [("lubricated", 5.0), ("by rate", 0.5, "lubrication.dry_band_factor")],
+    "lubrication.contamination_band_factor": [
+        ("lubricated", 4.0),
+        ("by rate", 4.0, "lubrication.contamination_band_factor"),
+    ],
     "lubrication.completeness": [("lubricated", 0.5), ("lubricated", 1.1, "lubrication.completeness")],
     "lubrication.contamination_factor": [("lubricated", 2.0)],
     "lubrication.ageing_factor": [("lubricated", 3.0)],

@@ -1,5 +1,7 @@
 """Columns in the place of a CSV file: what a program gives is what a file would give."""
 
+import csv
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -65,8 +67,11 @@ def test_columns_give_the_life_of_their_file(kind, tmp_path):
 def test_a_folder_keeps_columns_to_the_last_digit(tmp_path):
     result = wearsim.simulate(prescribed(LOADS))
     result.save(tmp_path / "out")
-    kept = pd.read_csv(tmp_path / "out" / "inputs" / "mechanism_table.csv")
-    assert kept.to_dict("list") == {name: values.tolist() for name, values in LOADS.items()}
+    # Older versions of pandas round the last digit of what they read.
+    with (tmp_path / "out" / "inputs" / "mechanism_table.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    kept = {name: [float(row[name]) for row in rows] for name in rows[0]}
+    assert kept == {name: values.tolist() for name, values in LOADS.items()}
     assert wearsim.load_case(tmp_path / "out" / "case.lock.toml").drive.table.arc_length[1] == 0.5
 
 

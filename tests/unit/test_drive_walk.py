@@ -226,6 +226,8 @@ OWN_CHANGES = {
     "optimise.objectives": [("two", ["life_hours"], "optimise.parameters")],
     "fatigue.load_factor": [("two", 1.1, "fatigue")],
     "wear.condition": [("no rate", "hardened, dry")],
+    "wear.tooth_hardness": [("two", "hardened", "wear.tooth_hardness")],
+    "sprocket.2.wear.tooth_hardness": [("two", "hardened", "sprocket.2.wear.tooth_hardness")],
     "wear.constants": [("two", {"k": 1.0}, "wear.constants")],
     "wear.law": [("two", "power", "wear.specific_wear_rate_mm2_per_N")],
     "wear.coefficient": [("power law", 2e-14)],

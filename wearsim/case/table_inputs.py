@@ -183,7 +183,7 @@ def _condition(case: CaseRecord, table: WearTable, name: str) -> WearInput:
         f"specific wear rate {typical:g} mm2/N, {condition.low:g} to {condition.high:g} "
         f"(wear condition {name!r})"
     )
-    return WearInput("archard", typical, {}, low, high, band)
+    return WearInput("archard", typical, {}, low, high, band, table.band_factor is None)
 
 
 def fatigue_input(case: CaseRecord, table: FatigueTable | None) -> FatigueInput | None:

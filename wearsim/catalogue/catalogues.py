@@ -2,6 +2,7 @@
 
 import csv
 import difflib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -128,6 +129,9 @@ class Lubricant:
     dry_factor: float | None  # coefficient of dry contacts over that of lubricated ones
     contamination_removed: float | None  # part of what dirt adds that an application takes away
     source: str  # where the numbers come from
+    # lasts_ends, dry_ends: ends of what is known of both; None where nothing is
+    lasts_ends: tuple[float, float] | None = None
+    dry_ends: tuple[float, float] | None = None
     is_own: bool = False  # whether a program gave it, not the table
 
 
@@ -312,8 +316,35 @@ def wear_conditions() -> dict[str, WearCondition]:
     }
 
 
+HARDNESSES = ("hardened", "normalised")
+"""How hard teeth are, in words: flame or case hardened, about 650 HV; or softer, about 200 HV."""
+
+_OTHER_CONDITIONS = {"unhardened, dry": "normalised, dry"}
+"""Names that wear conditions had."""
+
+
+def condition_name(name: str) -> str:
+    """Return the present name of a wear condition."""
+    return _OTHER_CONDITIONS.get(name, name)
+
+
+def condition_of_teeth(lubricant: Lubricant, hardness: str) -> str:
+    """Return the wear condition of a lubricant on teeth of a hardness; its own where that says no hardness.
+
+    Examples
+    --------
+    >>> condition_of_teeth(lubricants()["manual"], "normalised")
+    'normalised, greased'
+    """
+    return lubricant.wear_condition.replace(f"{HARDNESSES[0]}, ", f"{hardness}, ")
+
+
 def _number(text: str) -> float | None:
     return float(text) if text else None
+
+
+def _ends(row: Mapping[str, str], low: str, high: str) -> tuple[float, float] | None:
+    return (float(row[low]), float(row[high])) if row[low] else None
 
 
 @cache
@@ -329,6 +360,8 @@ def lubricants() -> dict[str, Lubricant]:
             _number(row["dry_factor"]),
             _number(row["contamination_removed"]),
             row["source"],
+            _ends(row, "lasts_low_sliding_m", "lasts_high_sliding_m"),
+            _ends(row, "dry_factor_low", "dry_factor_high"),
         )
         for row in catalogue_rows("lubricants")
     }

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from wearsim.catalogue.catalogues import Environment, WearCondition
+from wearsim.catalogue.catalogues import WearCondition
 
 LEAST_PRESSURE = 15.0
 """Joint pressure below which a rate is held [MPa]: no published route was read below it."""
@@ -185,13 +185,14 @@ def joint_band(
     condition: WearCondition,
     state: JointState,
     known: bool = True,
-    environment: Environment | None = None,
+    surroundings_known: bool = False,
 ) -> JointBand:
     """Return the band of a wear rate of joints that comes from a wear condition.
 
     Causes are independent, so their logarithms add as squares: the spread of the published rules of chain
     life, that of the condition's own rate, extrapolation beyond the window in which the rate was found,
-    lubrication that nobody named, and dirt. A constant rate is off by what the condition's law says as well.
+    lubrication that nobody named, and surroundings that nobody named. What dirt does where it is named is
+    not of the rate: that is the lubricant's. A constant rate is off by what the condition's law says as well.
 
     Parameters
     ----------
@@ -203,8 +204,8 @@ def joint_band(
         Where the joints run.
     known : bool
         Whether the condition was named, not only assumed.
-    environment : Environment, optional
-        Surroundings, where they were named.
+    surroundings_known : bool
+        Whether the surroundings were named.
 
     Returns
     -------
@@ -231,10 +232,7 @@ def joint_band(
         spreads.append(_EXTRAPOLATED._replace(why=outside))
     if not known:
         spreads.append(_UNKNOWN_OIL)
-    if environment is not None:
-        ends = environment.low / environment.factor, environment.high / environment.factor
-        spreads.append(_Spread(*ends, f"environment {environment.environment!r}"))
-    elif condition.machine != "any":
+    if condition.machine != "any" and not surroundings_known:
         spreads.append(_OPEN_TO_DIRT)
     band = _together(spreads)
     if law.is_constant and not of_condition.is_constant:

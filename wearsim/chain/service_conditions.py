@@ -1,34 +1,24 @@
 """How a drive is used, in words, and the factors and the wear condition that go with it."""
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
-from wearsim.catalogue.catalogues import nearest
+from wearsim.catalogue.catalogues import HARDNESSES, condition_of_teeth, environments, lubricants, nearest
 from wearsim.chain.joint_pressure import JointApplication, joint_application
 from wearsim.chain.power_rating import application_factor
 from wearsim.errors import CaseError, Fault
 
-
-class Lubrication(NamedTuple):
-    """What a word for a lubrication stands for in the tables.
-
-    That of GOST ends with periodic lubrication: a dry joint wears more than its factor of 1.5 says.
-    """
-
-    wear_condition: str  # row of the table of wear conditions
-    gost: str  # state of the GOST table of lubrication
-    lubricant: str  # row of the table of lubricants
-
-
 LUBRICATIONS = {
-    "drip": Lubrication("hardened, oiled", "drip", "drip"),
-    "oil-bath": Lubrication("hardened, oiled", "continuous", "oil bath"),
-    "forced": Lubrication("hardened, oiled", "continuous", "forced"),
-    "periodic": Lubrication("normalised, greased", "periodic", "manual"),
-    "grease": Lubrication("normalised, greased", "periodic", "greased"),
-    "dry": Lubrication("hardened, dry", "periodic", "dry"),
+    "drip": "drip",
+    "oil bath": "continuous",
+    "forced": "continuous",
+    "manual": "periodic",
+    "greased": "periodic",
+    "dry": "periodic",
 }
-"""What the words for a lubrication stand for."""
+"""Lubricants that a drive is designed for, with their state in the GOST table of lubrication.
+
+That table ends with periodic lubrication: a dry joint wears more than its factor of 1.5 says.
+"""
 
 SHOCKS = {
     "smooth": ("smooth", "steady"),
@@ -41,7 +31,14 @@ SHIFTS = ((8.0, "one"), (16.0, "two"), (24.0, "three"))
 """Hours a day up to which a drive runs in so many shifts."""
 
 
-_OTHER_WORDS = {"continuous": "forced", "manual": "periodic", "steady": "smooth"}
+_OTHER_WORDS = {
+    "continuous": "forced",
+    "grease": "greased",
+    "periodic": "manual",
+    "steady": "smooth",
+    "unhardened": "normalised",
+}
+"""Words that others, or earlier versions of wearsim, use."""
 
 
 def plain_word(text: str) -> str:
@@ -49,10 +46,10 @@ def plain_word(text: str) -> str:
 
     Examples
     --------
-    >>> plain_word("Oil bath"), plain_word("manual")
-    ('oil-bath', 'periodic')
+    >>> plain_word("Oil-bath"), plain_word("periodic")
+    ('oil bath', 'manual')
     """
-    word = text.strip().lower().replace(" ", "-").replace("_", "-")
+    word = text.strip().lower().replace("-", " ").replace("_", " ")
     return _OTHER_WORDS.get(word, word)
 
 
@@ -60,8 +57,9 @@ def plain_word(text: str) -> str:
 class ServiceConditions:
     """What follows from how a drive is used."""
 
-    lubrication: str  # word of `LUBRICATIONS`
-    wear_condition: str  # row of the table of wear conditions
+    lubrication: str  # row of the table of lubricants
+    environment: str  # row of the table of environments
+    tooth_hardness: str  # word of `HARDNESSES`
     service_factor: float  # f1 of ISO 10823, for an electric motor or another smooth driver
     joint_application: JointApplication  # factors of GOST practice, for a shaft that can be moved
 
@@ -70,20 +68,41 @@ class ServiceConditions:
         """K_e, their product."""
         return self.joint_application.factor
 
+    @property
+    def wear_condition(self) -> str:
+        """Row of the table of wear conditions."""
+        return condition_of_teeth(lubricants()[self.lubrication], self.tooth_hardness)
+
+    @property
+    def tables(self) -> dict[str, dict[str, str]]:
+        """The three words as tables of a case."""
+        return {
+            "wear": {"tooth_hardness": self.tooth_hardness},
+            "lubrication": {"lubricant": self.lubrication, "environment": self.environment},
+        }
+
 
 def service_conditions(
-    lubrication: str = "drip", shock: str = "smooth", hours_per_day: float = 8.0
+    lubrication: str = "drip",
+    shock: str = "smooth",
+    hours_per_day: float = 8.0,
+    environment: str = "clean",
+    tooth_hardness: str = "hardened",
 ) -> ServiceConditions:
     """Return the wear condition and the factors of a drive from words about its use.
 
     Parameters
     ----------
     lubrication : str
-        ``drip``, ``oil-bath``, ``forced``, ``periodic``, ``grease`` or ``dry``.
+        ``drip``, ``oil bath``, ``forced``, ``manual``, ``greased`` or ``dry``.
     shock : str
         Of the driven machine: ``smooth``, ``moderate`` or ``heavy``.
     hours_per_day : float
         Above 0 to 24: up to 8 are one shift, up to 16 two, above that three.
+    environment : str
+        ``clean``, ``dust``, ``wet``, ``mud`` or ``soil``.
+    tooth_hardness : str
+        ``hardened`` or ``normalised``.
 
     Returns
     -------
@@ -104,10 +123,16 @@ def service_conditions(
     >>> used.wear_condition, used.service_factor, used.joint_application_factor
     ('hardened, oiled', 1.4, 1.6875)
     """
-    words = {"lubrication": plain_word(lubrication), "shock": plain_word(shock)}
+    given = (
+        ("lubrication", lubrication, LUBRICATIONS),
+        ("shock", shock, SHOCKS),
+        ("environment", environment, environments()),
+        ("tooth_hardness", tooth_hardness, HARDNESSES),
+    )
+    words = {key: plain_word(word) for key, word, _ in given}
     faults = [
         Fault(f"must be one of {', '.join(known)}{nearest(word, list(known))} (got {word!r})", key)
-        for key, word, known in (("lubrication", lubrication, LUBRICATIONS), ("shock", shock, SHOCKS))
+        for key, word, known in given
         if words[key] not in known
     ]
     if not 0.0 < hours_per_day <= 24.0:
@@ -115,12 +140,12 @@ def service_conditions(
         faults.append(Fault(message, "hours_per_day"))
     if faults:
         raise CaseError(faults)
-    supplied = LUBRICATIONS[words["lubrication"]]
     driven, load = SHOCKS[words["shock"]]
     shifts = next(word for most, word in SHIFTS if hours_per_day <= most)
     return ServiceConditions(
         lubrication=words["lubrication"],
-        wear_condition=supplied.wear_condition,
+        environment=words["environment"],
+        tooth_hardness=words["tooth_hardness"],
         service_factor=application_factor("smooth", driven),
-        joint_application=joint_application(load, supplied.gost, shifts),
+        joint_application=joint_application(load, LUBRICATIONS[words["lubrication"]], shifts),
     )

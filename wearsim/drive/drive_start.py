@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wearsim.catalogue.catalogues import chains
+from wearsim.catalogue.catalogues import chains, environments
 from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS
 from wearsim.drive.known_drive import Values, is_plain, read_known, shifts_in_words, use_of
 from wearsim.errors import CaseError, Fault
@@ -22,13 +22,6 @@ _MOST_JOINT_FACTOR = 3.0
 _TOO_HARD = "\n# It is above 3, where handbooks ask for another drive."
 _COLUMN = 32
 """Width of a line of the case before its comment."""
-
-_WHY = {
-    "hardened, oiled": "hardened teeth, and oil on teeth and joints at all times.",
-    "normalised, greased": "the row of the table for little lubricant, with softer teeth.",
-    "hardened, dry": "hardened teeth, no lubricant at all.",
-}
-"""What the conditions of wear mean that go with the ways to lubricate."""
 
 _OPTIONS = {
     "chain.designation": "--chain",
@@ -63,7 +56,6 @@ def _loaded(values: Values) -> "DriveCase":
     from wearsim.drive.load_case import load_drive
 
     use, form = use_of(values), standard_form(chains()[values["chain"]])
-    supplied = LUBRICATIONS[values["lubrication"]]
     lengths = {"centre_distance_mm": values["centre"], "links": values["links"]}
     tables = {
         "format_version": 1,
@@ -75,8 +67,7 @@ def _loaded(values: Values) -> "DriveCase":
             "joint_application_factor": use.joint_application_factor,
         },
         "load": {"power_kW": values["power"], "speed_rpm": values["rpm"]},
-        "wear": {"condition": supplied.wear_condition},
-        "lubrication": {"lubricant": supplied.lubricant},
+        **use.tables,
     }
     try:
         return load_drive(tables)
@@ -109,7 +100,7 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
     """Return what the template shows."""
     from wearsim.drive.part_tables import LONGEST, SERVICE_YEARS
 
-    use, supplied = use_of(values), LUBRICATIONS[values["lubrication"]]
+    use = use_of(values)
     case = drive.driver.case
     chain, driver, driven = (values[name] for name in ("chain", "driver", "driven"))
     iso, load = SHOCKS[values["shock"]]
@@ -123,17 +114,15 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
         "length": _length(values, amounts, case),
         "iso_load": iso,
         "gost_load": load,
-        "gost_lubrication": supplied.gost,
+        "gost_lubrication": LUBRICATIONS[use.lubrication],
         "lubrication_note": " (there is none for dry)" if values["lubrication"] == "dry" else "",
         "shifts": f"{shifts} {'shift' if shifts == 'one' else 'shifts'}",
         "use": use,
         "limit": _TOO_HARD if use.joint_application_factor > _MOST_JOINT_FACTOR else "",
         "power": amounts["power"],
         "rpm": amounts["rpm"],
-        "lubrication": values["lubrication"],
-        "why": _WHY[supplied.wear_condition],
-        "condition": supplied.wear_condition,
-        "lubricant": supplied.lubricant,
+        "lubricants": ", ".join(LUBRICATIONS),
+        "environments": ", ".join(environments()),
         "hours": values["hours_per_day"],
         "horizon": min(LONGEST, SERVICE_YEARS * DAYS_OF_YEAR * values["hours_per_day"]),
         "years": SERVICE_YEARS,

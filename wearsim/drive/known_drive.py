@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from wearsim.catalogue.catalogues import chains, nearest
+from wearsim.catalogue.catalogues import HARDNESSES, chains, environments, nearest
 from wearsim.catalogue.chain_names import known_chain_name
 from wearsim.chain.service_conditions import (
     LUBRICATIONS,
@@ -151,6 +151,8 @@ KNOWN = (
         asked=False,
     ),
     _one_of("--lubrication", "Lubrication", tuple(LUBRICATIONS)),
+    _one_of("--environment", "Surroundings of the chain", tuple(environments())),
+    _one_of("--tooth-hardness", "Teeth", HARDNESSES),
     _fixed("--hours-per-day", "Running hours per day", "HOURS", _quantity("h", 24.0), "8"),
     _one_of("--shock", "Shocks from the driven machine", tuple(SHOCKS)),
     Known(
@@ -181,7 +183,8 @@ def read_known(typed: Mapping[str, str | None]) -> tuple[dict[str, Any], list[Fa
 
 def use_of(values: Values) -> ServiceConditions:
     """Return what follows from lubrication, shocks and hours of a day."""
-    return service_conditions(values["lubrication"], values["shock"], values["hours_per_day"])
+    names = ("lubrication", "shock", "hours_per_day", "environment", "tooth_hardness")
+    return service_conditions(**{name: values[name] for name in names})
 
 
 def shifts_in_words(values: Values) -> str:

@@ -10,9 +10,10 @@ from wearsim.contact.engagement import ContactKind, FlankContact
 from wearsim.contact.hertz import half_width
 from wearsim.geometry.profile_points import Vector
 from wearsim.lubrication.clock import FRESH, LubricantClock
+from wearsim.lubrication.model import LASTING
 from wearsim.quantities import grouped
 from wearsim.result import Life, LowerBound
-from wearsim.wear.mate_clock import MateClock
+from wearsim.wear.mate_clock import LubricatedClock, MateClock
 
 _APART = 1e-9
 """Part of the way between two rows of a history at which a third one is another one."""
@@ -39,6 +40,29 @@ def late_relubrication(
             end = f"the {kind} of the {name}, {grouped(life.hours_run)} h"
             found.append(given.never_relubricated(end, f"the {name} is", life.hours_run, lasts, dries))
     return found
+
+
+_HANGS_ON = 0.5
+"""Life at the lower end of how long the lubricant lasts, over the life, below which that is said."""
+
+
+def lasting_warning(case: Case, clock: LubricatedClock, part: str, life: Life | LowerBound) -> list[str]:
+    """Return a warning where a life hangs on how long the lubricant lasts, which nobody knows to the hour."""
+    given = case.lubrication
+    found = next((ends for ends in clock.ends if ends.unsure == LASTING), None)
+    if given is None or found is None:
+        return []
+    sooner = clock.run_by(found.worse, clock.steady_cycles(life.cycles_run))
+    if sooner >= _HANGS_ON * life.cycles_run:
+        return []
+    per_hour = case.cycles_per_hour * given.dirt.ageing
+    lasts, less = (grouped(one.law.lasts / per_hour) for one in (clock.lubricant, found.worse))
+    then = grouped(sooner / case.cycles_per_hour)
+    return [
+        f"the life of the {part} hangs on how long the lubricant lasts: {then} h instead of "
+        f"{grouped(life.hours_run)} h if that is {less} h and not {lasts} h, which its band holds; "
+        "relubricate sooner"
+    ]
 
 
 def sliding_per_cycle(case: Case, contact: FlankContact) -> float:

@@ -10,7 +10,7 @@ from wearsim.contact.engagement import FlankContact, Mechanism
 from wearsim.contact.hertz import peak_pressure
 from wearsim.drive.flank_grids import LEVELS, FlankRun, GridSearch, SettledLife, settle_grid
 from wearsim.drive.history import common_history
-from wearsim.drive.lubricant import late_relubrication
+from wearsim.drive.lubricant import lasting_warning, late_relubrication
 from wearsim.drive.validity import few_cycles, film_assumptions, validity
 from wearsim.drive.wear_task import WearTask, clock_assumptions, limit_states, new_flank_pressure, wear_task
 from wearsim.errors import WearsimError
@@ -34,6 +34,7 @@ def simulate_points(case: Case, progress: Callable[[float], None] = lambda part:
     if run.met is not None:
         warnings += few_cycles(float(run.cycles[-1]))
     warnings += late_relubrication(case, task.clock.lubricant, {"flank": _life(case, run)})
+    warnings += lasting_warning(case, task.clock, "flank", _life(case, run))
     # On the points of the case, as all that is asked of a new flank.
     new_pressure = new_flank_pressure(new.contact)
     fatigue = _fatigue(case, _life(case, run), new_pressure, warnings)
@@ -44,7 +45,7 @@ def simulate_points(case: Case, progress: Callable[[float], None] = lambda part:
         life=_life(case, run),
         life_low=low,
         life_high=high,
-        band=case.wear.band,
+        band=task.clock.band_source(case.wear.band, case.wear.of_condition),
         stop=run.met.name if run.met else "horizon_hours",
         stop_value=run.met.limit if run.met else case.run.horizon_hours,
         cycles_run=float(run.cycles[-1]),
@@ -185,19 +186,20 @@ def _band(
 ) -> tuple[Life | LowerBound, Life | LowerBound]:
     """Lives at the high and at the low coefficient: by scaling where the life is known."""
     life = _life(case, run)
+    steady = task.clock.steady_cycles(life.cycles_run)
+    wear = case.wear
+    least, most = task.clock.factors(steady, wear.low, wear.high, wear.of_condition)
     if isinstance(life, Life):
-        steady = task.clock.steady_cycles(life.cycles)
-        factors = np.array([case.wear.high, case.wear.low])
+        factors = np.array([most, least])
         low, high = task.clock.running_cycles(steady / factors).tolist()
         return Life(low, low / case.cycles_per_hour), Life(high, high / case.cycles_per_hour)
-    law = replace(task.law, coefficient=case.wear.high * task.law.coefficient)
+    law = replace(task.law, coefficient=most * task.law.coefficient)
     try:
         worse, _ = replace(task, law=law).run()
     except WearsimError as reason:
         # What the run has shown holds for the higher coefficient over proportionally fewer cycles.
         warnings.append(f"no life with the wear coefficient at its high end: {reason}")
-        steady = task.clock.steady_cycles(float(run.cycles[-1])) / case.wear.high
-        cycles = float(task.clock.running_cycles(np.array([steady]))[0])
+        cycles = float(task.clock.running_cycles(np.array([steady / most]))[0])
         return LowerBound(cycles, cycles / case.cycles_per_hour), life
     return _life(case, worse), life
 

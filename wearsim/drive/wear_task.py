@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -15,7 +16,7 @@ from wearsim.drive.lubricant import sliding_per_cycle
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.kernels.severity import FIRST, SECOND
-from wearsim.lubrication.clock import lubricant_clock
+from wearsim.lubrication.clock import clock_ends, lubricant_clock
 from wearsim.result import LimitState
 from wearsim.wear.advance import run_advance
 from wearsim.wear.law import (
@@ -157,9 +158,8 @@ def clock_assumptions(clock: WearClock) -> tuple[str, ...]:
 
 def contact_clock(case: Case, sliding: float, of_lubricant: float) -> LubricatedClock:
     """Return the clock of contacts, from what they and those of the lubricant slide in a cycle [mm]."""
-    return LubricatedClock(
-        _part_clock(case, sliding), lubricant_clock(case.lubrication, case.cycles_per_hour, of_lubricant)
-    )
+    given = case.lubrication, case.cycles_per_hour, of_lubricant
+    return LubricatedClock(_part_clock(case, sliding), lubricant_clock(*given), partial(clock_ends, *given))
 
 
 def _part_clock(case: Case, sliding_per_cycle: float) -> WearClock:

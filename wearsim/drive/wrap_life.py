@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from wearsim.case.model import Case
+from wearsim.case.model import Case, WearBand
 from wearsim.chain.rating_findings import rating_warnings
 from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit
 from wearsim.drive.history import common_history
-from wearsim.drive.lubricant import late_relubrication, with_knees
+from wearsim.drive.lubricant import lasting_warning, late_relubrication, with_knees
 from wearsim.drive.wear_task import (
     WearTask,
     clock_assumptions,
@@ -33,7 +33,7 @@ from wearsim.wear.loop import check_length
 from wearsim.wear.mate_clock import LubricatedClock, MateClock
 from wearsim.wear.problem import Rows, StartState
 from wearsim.wear.resting_bodies import highest_load
-from wearsim.wear.running_in import NO_RUNNING_IN, WearClock
+from wearsim.wear.running_in import NO_RUNNING_IN
 from wearsim.wear.settled_run import advance_resting, outlives
 from wearsim.wear.trajectory import difference
 
@@ -79,6 +79,7 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     history = with_knees(history, constant, law.mates, contact.elongation_per_cycle, case.cycles_per_hour)
     parts = {"chain": chain, "sprocket": sprocket}
     warnings += late_relubrication(case, clock.lubricant, parts)
+    warnings += lasting_warning(case, joint_clock(case, contact), "chain", chain)
     parts |= _fatigue(case, contact, law, (life, sprocket), warnings)
     deepest = int(run.depth[-1].argmax())
     return WearResult(
@@ -87,7 +88,7 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
         life=life,
         life_low=low,
         life_high=high,
-        band=drive.wear_band(ended, case.wear).source,
+        band=_band_source(case, ended, _clock_of(case, ended, contact, clock)),
         stop=stop,
         stop_value=stop_value,
         cycles_run=float(run.cycles[-1]),
@@ -139,6 +140,23 @@ def joint_clock(case: Case, contact: WrapContact) -> LubricatedClock:
     """Return the clock of the joints of the first chain, from what they slide all round the loop."""
     sliding = contact.joint_sliding_per_cycle
     return contact_clock(case, sliding, sliding)
+
+
+def chain_band(case: Case) -> WearBand:
+    """Return the ends of the wear of a chain over that of its case, and what they come from.
+
+    Those of the rate of its joints, wider by what is not known of the lubricant.
+    """
+    band = case.drive.wear_band("chain", case.wear)
+    contact = wrap_of(case).contact(case)
+    clock = joint_clock(case, contact)
+    ends = clock.factors(contact.cycles_per_mate, band.low, band.high, band.of_condition)
+    return WearBand(*ends, _band_source(case, "chain", clock), band.of_condition)
+
+
+def _band_source(case: Case, part: str, clock: LubricatedClock) -> str:
+    band = case.drive.wear_band(part, case.wear)
+    return clock.band_source(band.source, band.of_condition)
 
 
 def chain_clock(case: Case) -> LubricatedClock:
@@ -213,8 +231,8 @@ def _first(
 
 
 def part_band(case: Case, part: str, life: Life | LowerBound) -> tuple[Life | LowerBound, Life | LowerBound]:
-    """Return the life of chain or sprocket at the high and at the low end of its coefficient."""
-    clock: WearClock = NO_RUNNING_IN
+    """Return the life of chain or sprocket at both ends of the band of its wear."""
+    clock = LubricatedClock(NO_RUNNING_IN)
     if not (case.wear.is_steady and (case.lubrication is None or case.lubrication.steady)):
         contact = wrap_of(case).contact(case)
         clock = _clock_of(case, part, contact, wrap_task(case, contact).clock)
@@ -226,10 +244,12 @@ def _clock_of(case: Case, part: str, contact: WrapContact, teeth: LubricatedCloc
 
 
 def _band(
-    case: Case, part: str, life: Life | LowerBound, clock: WearClock
+    case: Case, part: str, life: Life | LowerBound, clock: LubricatedClock
 ) -> tuple[Life | LowerBound, Life | LowerBound]:
     band = case.drive.wear_band(part, case.wear)
-    return _scaled(life, band.high, case, clock), _scaled(life, band.low, case, clock)
+    steady = clock.steady_cycles(life.cycles_run)
+    low, high = clock.factors(steady, band.low, band.high, band.of_condition)
+    return _scaled(life, high, case, clock), _scaled(life, low, case, clock)
 
 
 def _clock_assumptions(case: Case, law: WearLaw) -> tuple[str, ...]:
@@ -245,7 +265,7 @@ def _clock_assumptions(case: Case, law: WearLaw) -> tuple[str, ...]:
     )
 
 
-def _scaled(life: Life | LowerBound, factor: float, case: Case, clock: WearClock) -> Life | LowerBound:
+def _scaled(life: Life | LowerBound, factor: float, case: Case, clock: LubricatedClock) -> Life | LowerBound:
     """Return the life with all wear coefficients multiplied: cycles times coefficient is constant."""
     steady = clock.steady_cycles(life.cycles_run)
     scaled = clock.running_cycles(np.array([steady / factor]))

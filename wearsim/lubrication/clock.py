@@ -1,7 +1,7 @@
 """The state of the lubricant as a clock: cycles run, and lubricated ones that wear as much."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -350,3 +350,48 @@ def lubricant_clock(
         given.dry_factor, cycles(given.lasts), cycles(given.fades), given.completeness, given.dirt_removed
     )
     return LubricantClock(law, schedule_of(given, cycles_per_hour, cycles))
+
+
+class ClockEnds(NamedTuple):
+    """The clock of a lubricant at both ends of something that is not known of it exactly."""
+
+    unsure: str  # what that is
+    stated: bool  # whether the case says how unsure it is
+    worse: LubricantClock
+    better: LubricantClock
+
+
+def clock_ends(
+    given: LubricationInput | None, cycles_per_hour: float, sliding_per_cycle: float
+) -> tuple[ClockEnds, ...]:
+    """Return the clocks at the ends of everything that is not known of a lubricant exactly."""
+    if given is None:
+        return ()
+    return tuple(
+        ClockEnds(
+            unsure,
+            stated,
+            lubricant_clock(worse, cycles_per_hour, sliding_per_cycle),
+            lubricant_clock(better, cycles_per_hour, sliding_per_cycle),
+        )
+        for unsure, stated, worse, better in given.ends
+    )
+
+
+def band_of_causes(middle: float, ends: Iterable[tuple[float, float]]) -> tuple[float, float]:
+    """Return the ends of a life that has a lower and an upper one by each of some independent causes.
+
+    Logarithms of independent causes add as squares.
+
+    Examples
+    --------
+    A life of 100 h that one cause halves or doubles, another one makes shorter only:
+
+    >>> low, high = band_of_causes(100.0, [(50.0, 200.0), (25.0, 100.0)])
+    >>> round(100.0 / low, 4), round(high, 4)  # 2^sqrt(1 + 4), 2^1
+    (4.7111, 200.0)
+    """
+    low, high = (
+        math.sqrt(math.fsum(math.log(end / middle) ** 2 for end in side)) for side in zip(*ends, strict=True)
+    )
+    return middle * math.exp(-low), middle * math.exp(high)

@@ -1,6 +1,6 @@
 """Dirt in the contacts: what it adds to their wear, by its surroundings and by its hardness."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from wearsim.catalogue.catalogues import environments
@@ -19,10 +19,18 @@ class Dirt:
 
     excess: float = 0.0  # what it adds to the factor 1 on the wear
     ageing: float = 1.0  # how many times as fast a lubricant ages
+    ends: tuple[float, float] | None = None  # of what is known of the excess; None where it is sure
+
+    def at_end(self, end: int) -> "Dirt":
+        """Return the same at the low end, 0, or the high end, 1, of what is known of it."""
+        return self if self.ends is None else replace(self, excess=self.ends[end], ends=None)
 
 
 CLEAN = Dirt()
 """Surroundings that do nothing."""
+
+_USUAL_BAND = 2.0
+"""Factor to either side of what a user says that dirt does: about that of the environments of the table."""
 
 
 def read_dirt(
@@ -40,9 +48,18 @@ def read_dirt(
                 case.take(f"{place}.{key}", value, why)
             else:
                 case.assumptions.append(f"{place}.{key} = {value:g} ({why})")
-    excess = (given["contamination_factor"] or row.factor) - 1.0
-    ageing = given["ageing_factor"] or row.ageing
-    return Dirt(_abrasion(case, whole, table, place) * excess, ageing)
+    factor, ageing = given["contamination_factor"] or row.factor, given["ageing_factor"] or row.ageing
+    share = _abrasion(case, whole, table, place)
+    if factor == 1.0 or share == 0.0:
+        return Dirt(0.0, ageing)
+    low, high = row.low, row.high
+    band = whole.contamination_band_factor
+    if band is None and given["contamination_factor"] is not None:
+        band = _USUAL_BAND
+        case.take("lubrication.contamination_band_factor", band, "the factor of dirt is the user's")
+    if band is not None:
+        low, high = max(factor / band, 1.0), factor * band
+    return Dirt(factor - 1.0, ageing, (low - 1.0, high - 1.0))
 
 
 def _abrasion(

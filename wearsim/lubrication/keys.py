@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, field_validator
 
-from wearsim.catalogue.catalogues import environments, lubricants
+from wearsim.catalogue.catalogues import HARDNESSES, Lubricant, condition_of_teeth, environments, lubricants
 from wearsim.input.table import Table, known, others_of
 from wearsim.input.units import NotNegative, Number, Positive, PositiveNumber
 
@@ -40,18 +40,33 @@ RATES = ("condition", "law", "specific_wear_rate_mm2_per_N", "coefficient")
 
 
 def with_wear_condition(tables: Any) -> Any:
-    """Return tables with the wear condition of their lubricant, if they give no wear rate of their own."""
-    if not isinstance(tables, dict):
-        return tables
-    given, wear = tables.get("lubrication"), tables.get("wear", {})
-    if not isinstance(given, dict) or not isinstance(wear, dict) or any(key in wear for key in RATES):
-        return tables
-    name = given.get("lubricant")
+    """Return tables with the wear condition of their lubricant, where they give no wear rate of their own."""
+    given = tables.get("lubrication") if isinstance(tables, dict) else None
+    name = given.get("lubricant") if isinstance(given, dict) else None
     if not isinstance(name, str):
         return tables
     # A name that is none is a fault of its own.
     row = lubricants().get(name, next(iter(lubricants().values())))
-    return {**tables, "wear": {"condition": row.wear_condition, **wear}}
+    sprockets = tables.get("sprocket")
+    if isinstance(sprockets, list):
+        tables = {**tables, "sprocket": [_with_own_condition(one, row) for one in sprockets]}
+    return {**tables, "wear": _with_condition(tables.get("wear", {}), row)}
+
+
+def _with_own_condition(sprocket: Any, row: Lubricant) -> Any:
+    """Return a sprocket with the condition of the lubricant in its own table of wear, where it has one."""
+    if not isinstance(sprocket, dict) or "wear" not in sprocket:
+        return sprocket
+    return {**sprocket, "wear": _with_condition(sprocket["wear"], row)}
+
+
+def _with_condition(wear: Any, row: Lubricant) -> Any:
+    """Return a table of wear with the condition of a lubricant on its teeth, unless it gives a rate."""
+    if not isinstance(wear, dict) or any(key in wear for key in RATES):
+        return wear
+    hardness = wear.get("tooth_hardness", HARDNESSES[0])
+    condition = condition_of_teeth(row, hardness) if hardness in HARDNESSES else row.wear_condition
+    return {"condition": condition, **wear}
 
 
 Part = Annotated[Number, Field(ge=0.0, le=1.0)]
@@ -131,6 +146,8 @@ class _Lubricant(Table):
     fades_over_km: NotNegative | None = None
     fades_over_sliding_m: NotNegative | None = None
     dry_factor: Factor | None = None
+    lasts_band_factor: Factor | None = None
+    dry_band_factor: Factor | None = None
     completeness: Annotated[PositiveNumber, Field(le=1.0)] | None = None
     contamination_removed: Part | None = None
     minutes_per_application: NotNegative | None = None
@@ -172,6 +189,7 @@ class LubricationTable(_Lubricant, _Surroundings):
     at_hours: Times | None = None
     at_km: Times | None = None
     when_rate_exceeds: Annotated[PositiveNumber, Field(gt=1.0)] | None = None
+    contamination_band_factor: Factor | None = None
     surface_hardness_HV: Hardness | None = None
     labour_cost_per_hour: Annotated[Number, Field(ge=0.0)] | None = None
     phase: list[LubricationPhase] = Field(default_factory=list)

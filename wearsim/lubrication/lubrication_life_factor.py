@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from wearsim.catalogue.catalogues import catalogue_rows
 from wearsim.lubrication.recommended import TYPES
 
-_SCANT = ("periodic", "grease")
+_SCANT = ("manual", "greased")
 """Lubrications below the poorest type: by brush or can now and then, or with grease."""
 
 
@@ -29,27 +29,27 @@ def lubrication_state(supplied: str, recommended: str, environment: str = "clean
     Parameters
     ----------
     supplied : str
-        ``drip``, ``oil-bath``, ``forced``, ``periodic``, ``grease`` or ``dry``.
+        ``drip``, ``oil bath``, ``forced``, ``manual``, ``greased`` or ``dry``.
     recommended : str
         Of `recommended_lubrication`.
     environment : str
-        ``clean``, ``dust``, ``wet`` or ``mud``; the last two are dirt.
+        ``clean``, ``dust``, ``wet``, ``mud`` or ``soil``; the last three are dirt.
 
     Examples
     --------
-    >>> lubrication_state("drip", "oil-bath"), lubrication_state("periodic", "oil-bath")
+    >>> lubrication_state("drip", "oil bath"), lubrication_state("manual", "oil bath")
     ('one type below', 'insufficient')
     """
     if supplied == "dry":
         return "dry, clean" if environment == "clean" else "dry, dirty"
     below = TYPES.index(recommended) - (-1 if supplied in _SCANT else TYPES.index(supplied))
-    if environment in ("wet", "mud"):
+    if environment in ("wet", "mud", "soil"):
         return "insufficient, dirty"
     dusty = environment == "dust"
     if below > 1 or (dusty and below == 1):
         return "insufficient"
     if below == 1 or dusty:
-        return "periodic" if supplied in _SCANT else "one type below"
+        return "manual" if supplied in _SCANT else "one type below"
     return "as recommended" if below == 0 else "better than recommended"
 
 
@@ -71,7 +71,7 @@ def lubrication_life_factor(supplied: str, recommended: str, environment: str = 
 
     Examples
     --------
-    >>> found = lubrication_life_factor("drip", "oil-bath")
+    >>> found = lubrication_life_factor("drip", "oil bath")
     >>> found.factor, found.low, found.high
     (0.4, 0.25, 0.65)
     """

@@ -1,7 +1,8 @@
 """How a case is lubricated, when again, and what that costs."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from wearsim.lubrication.dirt import CLEAN, Dirt
 from wearsim.quantities import grouped
@@ -13,6 +14,10 @@ class RunningWay:
 
     hours: float = 0.0  # [h]
     sliding: float = 0.0  # [mm]
+
+    def times(self, factor: float) -> "RunningWay":
+        """Return so many times the way."""
+        return RunningWay(factor * self.hours, factor * self.sliding)
 
 
 ENDLESS = RunningWay(math.inf)
@@ -27,6 +32,21 @@ class PhaseInput:
     dirt: Dirt
     relubrications: int  # spread evenly, the first at its begin
     contaminations: int  # spread evenly, in the middle of equal parts; none where dirt comes all the time
+
+
+LASTING = "how long the lubricant lasts"
+
+
+class LubricationEnds(NamedTuple):
+    """The same lubrication at both ends of something that is not known of it exactly."""
+
+    unsure: str  # what that is
+    stated: bool  # whether the case says how unsure it is
+    worse: "LubricationInput"
+    better: "LubricationInput"
+
+
+_SURE = (1.0, 1.0)
 
 
 @dataclass(frozen=True)
@@ -48,6 +68,10 @@ class LubricationInput:
     application_cost: float | None = None  # of a relubrication, work and lubricant; None where none is given
     supplied: bool = False  # all the time, so that it does not age
     supply_cost: float | None = None  # of what it uses up in an hour of that; None where that is not given
+    # lasts_ends, dry_ends: ends of what is known of `lasts` and `dry_factor`, over them
+    lasts_ends: tuple[float, float] = _SURE
+    dry_ends: tuple[float, float] = _SURE
+    stated: tuple[str, ...] = ()  # keys of bands that the case gives
 
     @property
     def first_hours(self) -> float:
@@ -65,6 +89,27 @@ class LubricationInput:
             then = f"; the lubricant fades from {grouped(lasts)} h on"
         word = "comes after" if self.at_hours else "is longer than"
         return f"{self.first} {word} {end}: {what} never relubricated{then}"
+
+    @property
+    def ends(self) -> tuple[LubricationEnds, ...]:
+        """What is not known exactly and changes the wear: how long it lasts, how fast it wears dry, dirt."""
+        lasts = tuple(replace(self, lasts=self.lasts.times(end)) for end in self.lasts_ends)
+        dry = tuple(replace(self, dry_factor=max(end * self.dry_factor, 1.0)) for end in self.dry_ends[::-1])
+        dirt = self._in_dirt(1), self._in_dirt(0)
+        causes = (
+            (LASTING, "lasts_band_factor", lasts),
+            ("the wear without lubricant", "dry_band_factor", dry),
+            ("dirt", "contamination_band_factor", dirt),
+        )
+        return tuple(
+            LubricationEnds(what, key in self.stated, *ends)
+            for what, key, ends in causes
+            if ends[0] != ends[1] and (key == "contamination_band_factor" or self.lasts is not ENDLESS)
+        )
+
+    def _in_dirt(self, end: int) -> "LubricationInput":
+        phases = tuple(replace(phase, dirt=phase.dirt.at_end(end)) for phase in self.phases)
+        return replace(self, dirt=self.dirt.at_end(end), phases=phases)
 
     @property
     def steady(self) -> bool:

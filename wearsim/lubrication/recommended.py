@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from wearsim.catalogue.catalogues import catalogue_rows
 
-TYPES = ("drip", "oil-bath", "forced")
+TYPES = ("drip", "oil bath", "forced")
 """Types A (manual or drip), B (bath or disc) and C (stream) of ANSI B29.1, the poorest first."""
 
 _BELOW_DRIP, _BELOW_STREAM = 0.56, 0.5
@@ -68,14 +68,14 @@ def recommended_lubrication(pitch: float, chain_speed: float) -> str:
     Returns
     -------
     str
-        ``drip``, ``oil-bath`` or ``forced``.
+        ``drip``, ``oil bath`` or ``forced``.
 
     Examples
     --------
     No. 60 drips to 1.12 m/s, and lies in a bath to 9.1 m/s:
 
     >>> [recommended_lubrication(19.05, speed) for speed in (0.8, 1.2, 9.2)]
-    ['drip', 'oil-bath', 'forced']
+    ['drip', 'oil bath', 'forced']
     """
     return TYPES[sum(chain_speed > limit for limit in lubrication_speed_limits(pitch))]
 

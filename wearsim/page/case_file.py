@@ -15,7 +15,7 @@ _EDITED = ("cases", "drives")
 NEW = Path("drive.toml")
 """Where a new case stands before it is saved."""
 
-FIRST = {"lubrication": "oil-bath"}
+FIRST = {"lubrication": "oil bath"}
 """What is known of the drive that the page opens with: with the lubrication that is recommended for it."""
 
 

@@ -19,6 +19,7 @@ _LABELS = {
     "condition": "Material and lubrication",
     "consumption_ml_per_hour": "Consumption",
     "contaminations": "Number of contaminations",
+    "contamination_band_factor": "Wear factor of dirt is known to a factor of",
     "contamination_factor": "Wear factor of dirt",
     "contamination_removed": "Fraction of the dirt removed by relubrication",
     "contact_end_mm": "End of contact, at the root",
@@ -29,6 +30,7 @@ _LABELS = {
     "core_factor": "Wear factor below the hardened layer",
     "designation": "Chain",
     "displaced": "Seat offset (GOST 591)",
+    "dry_band_factor": "Wear factor without lubricant is known to a factor of",
     "dry_factor": "Wear factor without lubricant",
     "duty_bins": "Number of load and speed classes",
     "duty_file": "File of the load spectrum",
@@ -57,6 +59,7 @@ _LABELS = {
     "kind": "Contact model",
     "km": "Duration (km)",
     "km_per_hour": "Distance per hour",
+    "lasts_band_factor": "How long it lasts is known to a factor of",
     "lasts_hours": "Lubricant lasts (hours)",
     "lasts_km": "Lubricant lasts (km)",
     "lasts_sliding_m": "Lubricant lasts (sliding distance)",
@@ -136,9 +139,11 @@ _LIMITS = "optimise.limits."
 
 _CONDITIONS = {
     "hardened, oiled": "hardened teeth, oil on teeth and joints at all times",
+    "hardened, greased": "hardened teeth, grease or oil now and then",
+    "normalised, oiled": "softer teeth, oil on teeth and joints at all times",
     "normalised, greased": "softer teeth, grease or oil now and then",
     "hardened, dry": "hardened teeth, no lubricant",
-    "unhardened, dry": "soft teeth, no lubricant",
+    "normalised, dry": "softer teeth, no lubricant",
     "soil-contaminated": "soil or sand on the chain, as in tracks and field machines",
     "bicycle, immersion wax": "bicycle chain dipped into molten wax",
     "bicycle, wax drip": "bicycle chain with wax dripped on",
@@ -147,10 +152,10 @@ _CONDITIONS = {
 }
 _LUBRICATIONS = {
     "drip": "oil drips on the chain",
-    "oil-bath": "the chain dips into oil",
+    "oil bath": "the chain dips into oil",
     "forced": "a pump sprays oil on the chain",
-    "periodic": "oil by hand now and then",
-    "grease": "grease now and then",
+    "manual": "oil by hand now and then",
+    "greased": "grease now and then",
     "dry": "none",
 }
 _SHOCKS = {
@@ -158,7 +163,22 @@ _SHOCKS = {
     "moderate": "uneven load, such as a mixer or a piston pump",
     "heavy": "shocks, such as a crusher or a press",
 }
-_WORDS = {"condition": _CONDITIONS, "lubrication": _LUBRICATIONS, "shock": _SHOCKS}
+_ENVIRONMENTS = {
+    "clean": "no dirt on the chain",
+    "dust": "dry dust",
+    "wet": "wet dirt",
+    "mud": "water and mud",
+    "soil": "soil or sand, as in tracks and field machines",
+}
+_HARDNESSES = {"hardened": "flame or case hardened, about 650 HV", "normalised": "not hardened, about 200 HV"}
+_WORDS = {
+    "condition": _CONDITIONS,
+    "environment": _ENVIRONMENTS,
+    "lubricant": _LUBRICATIONS,
+    "lubrication": _LUBRICATIONS,
+    "shock": _SHOCKS,
+    "tooth_hardness": _HARDNESSES,
+}
 
 
 def label(name: str) -> str:

@@ -364,7 +364,7 @@ def _compare(result: WearResult, source: str) -> str:
 
 def _band(result: WearResult) -> str:
     low, high = hours(result.life_low), hours(result.life_high)
-    return f"{low} to {high}, over the band of the wear coefficient"
+    return f"{low} to {high}, over the band of the wear rate"
 
 
 def _worst(result: WearResult) -> str:

@@ -24,7 +24,7 @@ _LOADS = {"power_kW": "kW", "torque_N_m": "N m", "tension_N": "N of tension"}
 
 _TYPES = {
     "drip": "manual or drip (type A of ANSI B29.1)",
-    "oil-bath": "oil bath or disc (type B of ANSI B29.1)",
+    "oil bath": "oil bath or disc (type B of ANSI B29.1)",
     "forced": "oil stream (type C of ANSI B29.1)",
 }
 """Lubrications that are required, in words."""

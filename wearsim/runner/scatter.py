@@ -1,7 +1,7 @@
 """What of a case scatters, and its cases at samples of that."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,6 +16,7 @@ from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import CaseSource, Document, read_document
+from wearsim.lubrication.keys import LASTS
 from wearsim.result.folder import file_paths
 from wearsim.runner.design import Design, design, replaced, value_at, value_in
 
@@ -81,6 +82,12 @@ def load_scattered(
                 f"{coefficient} is log-normal, 90 % of it {band.low:.3g} to {band.high:.3g} times "
                 f"{value:.3g}, its band (default; [uncertainty] gives another)"
             )
+    for key, scatter, ends in _of_lubricant(case):
+        if key not in given:
+            given[key] = scatter
+            assumptions.append(
+                f"{key} is log-normal, 90 % of it {ends} (default; [uncertainty] gives another)"
+            )
     if case.fatigue is not None:
         assumptions.append(WITH_FATIGUE)
     if len(given) > 1:
@@ -100,6 +107,31 @@ def _coefficients(case: Case) -> dict[str, tuple[float, WearBand]]:
     teeth, chain = (case.drive.wear_band(part, case.wear) for part in ("sprocket", "chain"))
     of_joints = {key: (value, chain) for key, value in case.drive.wear_coefficients.items()}
     return {coefficient_key(case): (case.wear.coefficient, teeth), **of_joints}
+
+
+def _of_lubricant(case: Case) -> Iterator[tuple[str, Distribution, str]]:
+    """Give keys of the lubricant that are not known exactly, how they scatter, and that in words.
+
+    Beside a coefficient that the user gives for the drive only those of which the case says how surely they
+    are known, as the band of that coefficient holds the others.
+    """
+    given, table = case.lubrication, case.inputs.get("lubrication") or {}
+    if given is None:
+        return
+    of_condition = any(case.drive.wear_band(part, case.wear).of_condition for part in ("sprocket", "chain"))
+    lasts = next((key for key in LASTS if key in table), "")
+    dirt = given.dirt.ends and tuple((1.0 + end) / (1.0 + given.dirt.excess) for end in given.dirt.ends)
+    found = (
+        (lasts, "lasts_band_factor", given.lasts_ends, None),
+        ("dry_factor", "dry_band_factor", given.dry_ends, 1.0),
+        ("contamination_factor", "contamination_band_factor", dirt, 1.0),
+    )
+    for key, band, ends, least in found:
+        if key not in table or not ends or ends == (1.0, 1.0) or not (of_condition or band in given.stated):
+            continue
+        value, (low, high) = table[key], ends
+        scatter = _banded(value, WearBand(low, high, "")).model_copy(update={"low": least})
+        yield f"lubrication.{key}", scatter, f"{low:.3g} to {high:.3g} times {value:.3g}"
 
 
 def _banded(value: float, band: WearBand) -> Distribution:

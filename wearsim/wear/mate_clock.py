@@ -1,12 +1,14 @@
 """Clocks of lubricated bodies, and of mates that are renewed while the bodies go on wearing."""
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from wearsim.geometry.profile_points import Vector
-from wearsim.lubrication.clock import FRESH, LubricantClock
+from wearsim.lubrication.clock import FRESH, ClockEnds, LubricantClock, band_of_causes
 from wearsim.wear.running_in import NO_RUNNING_IN, WearClock
 
 
@@ -21,6 +23,12 @@ class LubricatedClock(WearClock):
 
     part: WearClock
     lubricant: LubricantClock = FRESH
+    unsure: Callable[[], tuple[ClockEnds, ...]] = tuple  # what is not known of the lubricant exactly
+
+    @cached_property
+    def ends(self) -> tuple[ClockEnds, ...]:
+        """Clocks of the lubricant at the ends of what is not known of it exactly."""
+        return self.unsure()
 
     @property
     def is_steady(self) -> bool:
@@ -49,6 +57,52 @@ class LubricatedClock(WearClock):
         """Return the cycles run that wear as much as those of constant coefficient."""
         lubricated = self.part.running_cycles(constant)
         return lubricated if self.lubricant is FRESH else self.lubricant.running_cycles(lubricated)
+
+    def ends_beside(self, of_condition: bool) -> tuple[ClockEnds, ...]:
+        """Return what a band of the coefficient leaves out.
+
+        One that the user gives for the drive holds all but what the case says of the lubricant itself.
+        """
+        return tuple(ends for ends in self.ends if of_condition or ends.stated)
+
+    def factors(self, constant: float, low: float, high: float, of_condition: bool) -> tuple[float, float]:
+        """Return the ends of a band of the coefficient, wider by what is not known of the lubricant.
+
+        Each end is the factor on the wear that leads to the end of a life: causes are independent, so the
+        logarithms of the lives add as squares.
+
+        Equation physics.md (O4).
+
+        Parameters
+        ----------
+        constant : float
+            Cycles of constant coefficient that the life takes.
+        low, high : float
+            Ends of the coefficient over that of the case.
+        of_condition : bool
+            Whether these are ends of a wear condition, not the user's for this drive.
+
+        Returns
+        -------
+        tuple of float
+            Ends of the factor on the wear.
+        """
+        beside = self.ends_beside(of_condition)
+        if not beside or not 0.0 < constant < math.inf:
+            return low, high
+        causes = [(self.run_by(ends.worse, constant), self.run_by(ends.better, constant)) for ends in beside]
+        of_rate = self.run_by(self.lubricant, constant / high), self.run_by(self.lubricant, constant / low)
+        first, last = band_of_causes(self.run_by(self.lubricant, constant), [of_rate, *causes])
+        return constant / self.steady_cycles(last), constant / self.steady_cycles(first)
+
+    def run_by(self, lubricant: LubricantClock, constant: float) -> float:
+        """Return the cycles run by the clock of a lubricant that wear as much as constant ones."""
+        lubricated = self.part.running_cycles(np.array([constant]))
+        return float(lubricant.running_cycles(lubricated)[0])
+
+    def band_source(self, of_coefficient: str, of_condition: bool) -> str:
+        """Return in words what a band comes from, that of the coefficient and that of the lubricant."""
+        return "; ".join([of_coefficient, *(ends.unsure for ends in self.ends_beside(of_condition))])
 
 
 @dataclass(frozen=True, eq=False)

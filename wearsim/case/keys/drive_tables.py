@@ -4,11 +4,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator
 
-from wearsim.case.keys.wear_tables import MaterialTable, WearTable
-from wearsim.catalogue.catalogues import MOST_STRANDS, chains, wear_conditions
+from wearsim.case.keys.wear_tables import MaterialTable, WearTable, known_condition
+from wearsim.catalogue.catalogues import MOST_STRANDS, chains
 from wearsim.catalogue.chain_names import chain_name, known_chain_name
 from wearsim.geometry.forms import BETWEEN_FORMS, TOOTH_FORMS
-from wearsim.input.table import Table, all_differ, known, others_of
+from wearsim.input.table import Table, all_differ, others_of
 from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
 
 
@@ -62,7 +62,7 @@ class JointTable(Table):
     @field_validator("condition")
     @classmethod
     def _known(cls, value: str | None) -> str | None:
-        return known(value, dict(wear_conditions()), "wear condition", "wearsim list wear-conditions")
+        return known_condition(value)
 
     @field_validator(*_REFERENCES)
     @classmethod

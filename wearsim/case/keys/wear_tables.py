@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, WrapValidator, create_model, field_validator
 
-from wearsim.catalogue.catalogues import materials, wear_conditions, wear_laws
+from wearsim.catalogue.catalogues import HARDNESSES, condition_name, materials, wear_conditions, wear_laws
 from wearsim.catalogue.own_wear_laws import own_constant_faults, own_wear_laws
 from wearsim.contact.stop_limits import CHAIN_LIMITS, LimitKey
 from wearsim.input.table import Finite, Table, known, others_of
@@ -22,12 +22,20 @@ def _known_law(value: Any, handler: Callable[[Any], Any]) -> Any:
     return value if isinstance(value, str) and value in own_wear_laws() else handler(value)
 
 
+def known_condition(value: str | None) -> str | None:
+    """Return the present name of a wear condition, or raise with the nearest ones."""
+    name = None if value is None else condition_name(value)
+    return known(name, dict(wear_conditions()), "wear condition", "wearsim list wear-conditions")
+
+
 _KEYS = {name: keys for name, keys in _law_keys().items() if name not in own_wear_laws()}
 _TOGETHER = [entry.keys for entry in wear_laws().values() if entry.kind == "factor" and len(entry.keys) > 1]
 if TYPE_CHECKING:
     _LawName = str
+    _Hardness = str
 else:
     _LawName = Annotated[Literal[tuple(_KEYS)], WrapValidator(_known_law)]
+    _Hardness = Literal[HARDNESSES]
 
 
 class _WearTable(Table):
@@ -35,6 +43,7 @@ class _WearTable(Table):
 
     law: _LawName = "archard"
     condition: str | None = None
+    tooth_hardness: _Hardness | None = None
     specific_wear_rate_mm2_per_N: Positive | None = None
     coefficient: PositiveNumber | None = None
     constants: dict[str, Finite] | None = None
@@ -59,17 +68,23 @@ class _WearTable(Table):
         """Return the keys whose place a new value of a key takes."""
         every = tuple(dict.fromkeys([*(key for keys in _KEYS.values() for key in keys), "constants"]))
         if key == "condition":
-            return ("law", *every)
+            return ("law", "tooth_hardness", *every)
+        if key == "tooth_hardness":
+            return ("condition", "law", *every)
         if key == "law":
-            return ("condition", *(other for other in every if other not in _law_keys().get(value, ())))
+            return (
+                "condition",
+                "tooth_hardness",
+                *(other for other in every if other not in _law_keys().get(value, ())),
+            )
         if key == "specific_wear_rate_mm2_per_N":
-            return ("condition", "law", *(other for other in every if other != key))
-        return ("condition", "specific_wear_rate_mm2_per_N") if key in every else ()
+            return ("condition", "tooth_hardness", "law", *(other for other in every if other != key))
+        return ("condition", "tooth_hardness", "specific_wear_rate_mm2_per_N") if key in every else ()
 
     @field_validator("condition")
     @classmethod
     def _known(cls, value: str | None) -> str | None:
-        return known(value, dict(wear_conditions()), "wear condition", "wearsim list wear-conditions")
+        return known_condition(value)
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -89,6 +104,7 @@ class _WearTable(Table):
         elif self.condition is not None and self.law != "archard":
             message = f"a condition is one of law = 'archard': remove it or law = {self.law!r}"
             found.append(("condition", message))
+        found += self._hardness_faults(given)
         for pair in _TOGETHER:
             missing = [key for key in pair if getattr(self, key) is None]
             if len(missing) == 1:
@@ -98,6 +114,19 @@ class _WearTable(Table):
             message = "is a running-in that never ends: remove it or running_in_factor"
             found.append(("cycles_exponent", message))
         return found
+
+    def _hardness_faults(self, given: list[str]) -> list[tuple[str, str]]:
+        """Return what is wrong with the hardness of the teeth, which goes with a lubricant."""
+        if self.tooth_hardness is None:
+            return []
+        if self.condition is None:
+            if given:
+                return [("tooth_hardness", f"{given[0]} says how fast the teeth wear: remove one of both")]
+            return [("tooth_hardness", "needs lubrication.lubricant: both give the wear rate of the teeth")]
+        if self.condition.startswith(f"{self.tooth_hardness}, "):
+            return []
+        text = f"must be that of condition = {self.condition!r}: remove it, or name another lubricant"
+        return [("tooth_hardness", f"{text} (got {self.tooth_hardness!r})")]
 
 
 def _above_zero(key: str) -> Any:

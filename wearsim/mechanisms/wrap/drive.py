@@ -531,13 +531,13 @@ def over_pins(path: RollerPath, x: Vector, y: Vector, gaps: int) -> float:
 
 
 _SUPPLY = {
-    **{supplied.lubricant: word for word, supplied in LUBRICATIONS.items()},
-    "normalised, greased": "periodic",
+    "hardened, greased": "manual",
+    "normalised, greased": "manual",
     "hardened, dry": "dry",
-    "unhardened, dry": "dry",
+    "normalised, dry": "dry",
     "soil-contaminated": "dry",
 }
-"""Word for the supply of a lubricant or of a wear condition, where it stands for one."""
+"""Lubricant of a wear condition, where it stands for one."""
 
 
 def supply_in_words(case: Case) -> tuple[str, str]:
@@ -545,7 +545,8 @@ def supply_in_words(case: Case) -> tuple[str, str]:
     lubrication = case.inputs.get("lubrication") or {}
     of_joints = (case.inputs.get("joint") or {}).get("condition")
     condition = of_joints or case.inputs["wear"].get("condition", "")
-    supplied = _SUPPLY.get(lubrication.get("lubricant") or condition, "")
+    named = lubrication.get("lubricant")
+    supplied = named if named in LUBRICATIONS else _SUPPLY.get(condition, "")
     soil = condition == "soil-contaminated" or lubrication.get("environment") == "soil"
     return supplied, "mud" if soil else lubrication.get("environment", "clean")
 

@@ -9,14 +9,7 @@ from wearsim.case.keys import JointTable
 from wearsim.case.keys.drive_tables import JOINT_LAW_KEYS
 from wearsim.case.model import WearBand, WearInput
 from wearsim.case.table_inputs import DEFAULT_BAND
-from wearsim.catalogue.catalogues import (
-    USUAL_CONDITION,
-    Chain,
-    Environment,
-    WearCondition,
-    environments,
-    wear_conditions,
-)
+from wearsim.catalogue.catalogues import USUAL_CONDITION, Chain, WearCondition, wear_conditions
 from wearsim.chain.drive_layout import DriveLayout
 from wearsim.chain.elongation_limit import elongation_rule
 from wearsim.chain.joint_wear import JointBand, JointLaw, JointState, extrapolated, joint_band, joint_law
@@ -170,7 +163,9 @@ def _band(case: ChainRecord, law: JointLaw, state: JointState) -> WearBand:
         found_elsewhere = given is not None and not law.is_constant
         return WearBand(*(extrapolated(band, law, state.held) if found_elsewhere else band))
     known = _named(case) is not None
-    return WearBand(*joint_band(law, condition, state, known, _environment(case)))
+    lubrication = case.tables.lubrication
+    surroundings_known = lubrication is not None and lubrication.environment is not None
+    return WearBand(*joint_band(law, condition, state, known, surroundings_known), of_condition=True)
 
 
 def _tooth_band(case: ChainRecord, law: JointLaw, state: JointState, wear: WearInput) -> WearBand:
@@ -178,17 +173,15 @@ def _tooth_band(case: ChainRecord, law: JointLaw, state: JointState, wear: WearI
 
     A rate of their own was read where that of the joints was.
     """
-    band, table, of_teeth = WearBand(wear.low, wear.high, wear.band), case.tables.wear, _tooth_law(case, law)
+    band = WearBand(wear.low, wear.high, wear.band, wear.of_condition)
+    table, of_teeth = case.tables.wear, _tooth_law(case, law)
     if of_teeth is None:
         return band
     if table.specific_wear_rate_mm2_per_N is not None:
-        return WearBand(*extrapolated(JointBand(*band), law, state.held))
-    return band if table.band_factor else WearBand(*extrapolated(JointBand(*band), of_teeth, state))
-
-
-def _environment(case: ChainRecord) -> Environment | None:
-    table = case.tables.lubrication
-    return None if table is None or table.environment is None else environments()[table.environment]
+        return WearBand(*extrapolated(JointBand(*band[:3]), law, state.held))
+    if table.band_factor:
+        return band
+    return WearBand(*extrapolated(JointBand(*band[:3]), of_teeth, state), of_condition=True)
 
 
 def _say_law(case: ChainRecord, law: JointLaw, condition: WearCondition, state: JointState) -> None:

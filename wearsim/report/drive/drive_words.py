@@ -250,7 +250,7 @@ def part_name(name: str) -> str:
 def band_text(found: DriveLife) -> str:
     """Return in words how sure the first life is."""
     low, high = (hours(life) for life in found.band(banded_part(found)))
-    return f"{low} to {high} for the {part_name(banded_part(found))}, over the band of its wear coefficient"
+    return f"{low} to {high} for the {part_name(banded_part(found))}, over the band of its wear rate"
 
 
 def banded_part(found: DriveLife) -> str:

@@ -305,7 +305,7 @@ class CaseFit:
             tables = {**tables, "wear": of_teeth}
         for key, setting in {**here.wear_coefficients, **here.wear_settings}.items():
             tables = replaced(tables, key.split("."), setting)
-        low, high, _ = here.joint.band
+        low, high = here.joint.band[:2]
         return replaced(tables, ("joint", "band_factor"), max(high, 1.0 / low))
 
     def _source(self) -> str:

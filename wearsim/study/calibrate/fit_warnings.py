@@ -7,6 +7,7 @@ from itertools import combinations
 from scipy.stats import chi2
 
 from wearsim.case.model import Case
+from wearsim.drive.wrap_life import chain_band
 from wearsim.geometry.profile_points import Vector
 from wearsim.readings.chain_readings import GO, NO_GO
 from wearsim.readings.contradictions import (
@@ -114,11 +115,13 @@ def fit_warnings(
 def _outside_bands(case: Case, values: Sequence[FittedCoefficient]) -> Iterator[str]:
     """Give coefficients outside of their bands; that of the teeth goes with the values fitted besides."""
     shaped = any(one.key in shape_ranges(case) for one in values)
-    parts = {JOINT: ("chain", JOINTS), **({} if shaped else {coefficient_key(case): ("sprocket", TEETH)})}
+    of_teeth = {} if shaped else {coefficient_key(case): TEETH}
     for one in values:
-        if one.key in parts:
-            part, of = parts[one.key]
-            yield from band_warning(one.value / one.in_case, case.drive.wear_band(part, case.wear), of)
+        factor = one.value / one.in_case
+        if one.key == JOINT:
+            yield from band_warning(factor, chain_band(case), JOINTS)
+        elif one.key in of_teeth:
+            yield from band_warning(factor, case.drive.wear_band("sprocket", case.wear), TEETH)
 
 
 def warnings_of_readings(observations: Sequence[Observation], state: PredictedState) -> Iterator[str]:

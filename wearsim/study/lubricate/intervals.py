@@ -1,12 +1,14 @@
 """Costs of a drive at any interval between relubrications, and the interval that costs least."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+import operator
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from wearsim.lubrication.clock import LubricantClock
+from wearsim.lubrication.clock import LubricantClock, band_of_causes
 from wearsim.lubrication.law import LubricantLaw
 from wearsim.lubrication.schedule import LubricantEvent, LubricantSchedule
 
@@ -43,6 +45,27 @@ class WornPart:
     # hours_low, hours_high: the same at the high and at the low end of the wear coefficients
     hours_low: float
     hours_high: float
+    of_condition: bool  # whether these are the ends of a wear condition, not the user's for the drive
+
+
+class LubricantState(NamedTuple):
+    """How a lubricant ages and what dirt adds."""
+
+    law: LubricantLaw  # over hours
+    excess: float  # what dirt adds
+    ageing: float  # how many hours an hour makes older
+
+    def clock(self, interval: float) -> LubricantClock:
+        """Return the clock of an interval between relubrications [h]."""
+        return LubricantClock(self.law, LubricantSchedule.every(interval, self.excess, self.ageing))
+
+
+class StateEnds(NamedTuple):
+    """The lubricant at both ends of something that is not known of it exactly."""
+
+    stated: bool  # whether the case says how unsure it is
+    worse: LubricantState
+    better: LubricantState
 
 
 @dataclass(frozen=True)
@@ -51,11 +74,11 @@ class RelubricationPolicy:
 
     interval: float  # [h]; infinite where the lubricant is supplied all the time
     lives: Mapping[str, float]  # of the parts when new at the begin [h]
-    lives_low: Mapping[str, float]  # at the high end of the wear coefficients
-    lives_high: Mapping[str, float]  # at the low end
+    lives_low: Mapping[str, float]  # at the lower end of the band
+    lives_high: Mapping[str, float]  # at the upper end
     wear_factor: float  # on the wear of well lubricated contacts in the long run
-    # cost, cost_low, cost_high: per 1000 h in the long run, and at the low and the high end of the wear
-    # coefficients; None where a price is missing
+    # cost, cost_low, cost_high: per 1000 h in the long run, and at both ends of the band; None where a price
+    # is missing
     cost: float | None
     cost_low: float | None
     cost_high: float | None
@@ -75,21 +98,17 @@ class LubricationIntervals:
 
     def __init__(
         self,
-        law: LubricantLaw,
-        excess: float,
-        ageing: float,
+        state: LubricantState,
         parts: Sequence[WornPart],
         application_cost: float | None,
+        ends: Sequence[StateEnds] = (),
     ) -> None:
-        self.law, self.excess, self.ageing = law, excess, ageing
+        self.state, self.ends = state, ends
         self.parts = parts
         self.application_cost = application_cost
         self.unknown = self._unknown()
-        # Cost of the parts in an hour of lubricated contacts: as in the case, and at both ends of the band.
-        self.hourly = [
-            math.fsum((part.price or 0.0) / getattr(part, hours) for part in parts)
-            for hours in ("hours", "hours_high", "hours_low")
-        ]
+        # Cost of the parts in an hour of lubricated contacts.
+        self.hourly = math.fsum((part.price or 0.0) / part.hours for part in parts)
 
     def _unknown(self) -> str:
         """Return why no cost is known; empty where it is."""
@@ -103,31 +122,38 @@ class LubricationIntervals:
     @property
     def effect(self) -> float:
         """Hours until the lubricant is gone."""
-        return (self.law.lasts + self.law.fades) / self.ageing
+        law = self.state.law
+        return (law.lasts + law.fades) / self.state.ageing
 
     def clock(self, interval: float) -> LubricantClock:
         """Return the clock of an interval."""
-        return LubricantClock(self.law, LubricantSchedule.every(interval, self.excess, self.ageing))
+        return self.state.clock(interval)
 
     def policy(self, interval: float) -> RelubricationPolicy:
         """Return what an interval leads to."""
         clock = self.clock(interval)
-
-        def lives(hours: Callable[[WornPart], float]) -> dict[str, float]:
-            return {part.name: _life(clock, hours(part)) for part in self.parts}
-
-        cost, low, high = (
-            None if self.unknown else self._cost(clock, interval, hourly) for hourly in self.hourly
-        )
+        at_ends = [
+            (ends.stated, ends.worse.clock(interval), ends.better.clock(interval)) for ends in self.ends
+        ]
+        bands = {part.name: _life_band(part, clock, at_ends) for part in self.parts}
+        wear = clock.lasting_factor
+        cost = cost_low = cost_high = None
+        if not self.unknown:
+            ends = [_wear_band(part, wear, at_ends) for part in self.parts]
+            rates = ([wear / part.hours for part in self.parts], *zip(*ends, strict=True))
+            prices = [part.price or 0.0 for part in self.parts]
+            cost, cost_low, cost_high = (
+                self._cost(math.fsum(map(operator.mul, prices, each)), interval) for each in rates
+            )
         return RelubricationPolicy(
             interval=interval,
-            lives=lives(lambda part: part.hours),
-            lives_low=lives(lambda part: part.hours_low),
-            lives_high=lives(lambda part: part.hours_high),
-            wear_factor=clock.lasting_factor,
+            lives={part.name: _life(clock, part.hours) for part in self.parts},
+            lives_low={name: low for name, (low, _) in bands.items()},
+            lives_high={name: high for name, (_, high) in bands.items()},
+            wear_factor=wear,
             cost=cost,
-            cost_low=low,
-            cost_high=high,
+            cost_low=cost_low,
+            cost_high=cost_high,
         )
 
     def supplied(self, cost_per_hour: float | None) -> RelubricationPolicy:
@@ -139,8 +165,9 @@ class LubricationIntervals:
         )
         return replace(found, interval=math.inf, cost=cost, cost_low=low, cost_high=high)
 
-    def _cost(self, clock: LubricantClock, interval: float, hourly: float) -> float:
-        return 1000.0 * (clock.lasting_factor * hourly + (self.application_cost or 0.0) / interval)
+    def _cost(self, of_parts: float, interval: float) -> float:
+        """Return the cost per 1000 h, where parts cost so much in an hour."""
+        return 1000.0 * (of_parts + (self.application_cost or 0.0) / interval)
 
     @property
     def longest(self) -> float:
@@ -166,7 +193,7 @@ class LubricationIntervals:
         tried = np.geomspace(1e-4 * longest, longest, _SEARCHED)
 
         def cost(interval: float) -> float:
-            return self._cost(self.clock(interval), interval, self.hourly[0])
+            return self._cost(self.clock(interval).lasting_factor * self.hourly, interval)
 
         costs = np.array([cost(interval) for interval in tried])
         at = int(costs.argmin())
@@ -196,20 +223,45 @@ class LubricationIntervals:
         """Return what one relubrication left out costs, once the schedule repeats itself."""
         clock = self.clock(interval)
         events = (
-            LubricantEvent(0.0, held=self.excess, ageing=self.ageing),
+            LubricantEvent(0.0, held=self.state.excess, ageing=self.state.ageing),
             *(LubricantEvent(number * interval, relubricated=True) for number in range(1, _BEFORE + 1)),
             LubricantEvent((_BEFORE + 2) * interval, relubricated=True),
         )
-        left_out = LubricantClock(self.law, LubricantSchedule(events))
+        left_out = LubricantClock(self.state.law, LubricantSchedule(events))
         end = (_BEFORE + 2) * interval
         more = left_out.steady_cycles(end) - clock.steady_cycles(end)
         more = more if more > _ROUNDING * clock.steady_cycles(interval) else 0.0
         if 2.0 * interval > min(_life(clock, part.hours) for part in self.parts):
             return MissedRelubrication(interval, None, None)
-        cost = None if self.unknown else more * self.hourly[0] - (self.application_cost or 0.0)
+        cost = None if self.unknown else more * self.hourly - (self.application_cost or 0.0)
         return MissedRelubrication(interval, more / clock.lasting_factor, cost)
 
 
 def _life(clock: LubricantClock, lubricated: float) -> float:
     """Return the hours in which so many of well lubricated contacts wear off."""
     return float(clock.running_cycles(np.array([lubricated]))[0])
+
+
+_AtEnds = Sequence[tuple[bool, LubricantClock, LubricantClock]]
+
+
+def _life_band(part: WornPart, clock: LubricantClock, ends: _AtEnds) -> tuple[float, float]:
+    """Return the ends of a life, by the wear coefficient and by what is not known of the lubricant."""
+    causes = [(_life(clock, part.hours_low), _life(clock, part.hours_high))]
+    causes += [
+        (_life(worse, part.hours), _life(better, part.hours))
+        for stated, worse, better in ends
+        if stated or part.of_condition
+    ]
+    return band_of_causes(_life(clock, part.hours), causes)
+
+
+def _wear_band(part: WornPart, wear: float, ends: _AtEnds) -> tuple[float, float]:
+    """Return the ends of how many of a part wear out in an hour in the long run, in the same way."""
+    causes = [(wear / part.hours_high, wear / part.hours_low)]
+    causes += [
+        (better.lasting_factor / part.hours, worse.lasting_factor / part.hours)
+        for stated, worse, better in ends
+        if stated or part.of_condition
+    ]
+    return band_of_causes(wear / part.hours, causes)

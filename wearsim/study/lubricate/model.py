@@ -10,16 +10,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wearsim.case.model import Case
+from wearsim.case.model import Case, WearBand
 from wearsim.drive.part_life import case_clock
 from wearsim.errors import CaseError, Fault
 from wearsim.lubrication.clock import LubricantClock
 from wearsim.lubrication.model import ENDLESS, LubricationInput
 from wearsim.result import Life, LowerBound
 from wearsim.study.lubricate.intervals import (
+    LubricantState,
     LubricationIntervals,
     MissedRelubrication,
     RelubricationPolicy,
+    StateEnds,
     WornPart,
 )
 from wearsim.wear.running_in import WearClock
@@ -27,8 +29,8 @@ from wearsim.wear.running_in import WearClock
 CONVENTIONS = (
     "lives start with new, freshly lubricated parts; costs are long-run averages, where parts are "
     "replaced at any time between two relubrications, without interest",
-    "bands of lives and costs are those of the wear coefficients, of a chain those of its joints; how long "
-    "the lubricant lasts and what dry contacts wear is taken as it is",
+    "bands of lives and costs are those of the wear coefficients, of a chain those of its joints, of how "
+    "long the lubricant lasts, of what dry contacts wear and of what dirt does",
 )
 """What the tables rest on."""
 
@@ -91,7 +93,7 @@ class LubricatedDrive:
     case: Case  # of one sprocket, or of the driver of a whole drive
     clocks: Mapping[str, tuple[WearClock, float]]  # how each part runs in, and its cycles in an hour
     lives: Mapping[str, Life | LowerBound]
-    bands: Mapping[str, tuple[float, float]]  # coefficients at the ends of the band over that of the case
+    bands: Mapping[str, WearBand]  # of the wear coefficients
     prices: Mapping[str, float | None]
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
@@ -116,11 +118,15 @@ def lubricant_plan(drive: LubricatedDrive) -> LubricantPlan:
     case, given = drive.case, drive.case.lubrication
     assert given is not None
     clock, per_hour = case_clock(case), case.cycles_per_hour
-    law = clock.lubricant.law
-    law = replace(law, lasts=law.lasts / per_hour, fades=law.fades / per_hour)
+    state = _state(clock.lubricant, given, per_hour)
+    law = state.law
+    ends = [
+        StateEnds(at.stated, _state(at.worse, of.worse, per_hour), _state(at.better, of.better, per_hour))
+        for at, of in zip(clock.ends, given.ends, strict=True)
+    ]
     parts = tuple(_part(drive, clock.lubricant, name) for name in drive.lives)
     price = 0.0 if given.supplied else given.application_cost
-    intervals = LubricationIntervals(law, given.dirt.excess, given.dirt.ageing, parts, price)
+    intervals = LubricationIntervals(state, parts, price, ends)
     if given.supplied:
         return _supplied_plan(given, intervals)
     own = None if given.interval is None else intervals.policy(clock.lubricant.repeats / per_hour)
@@ -143,6 +149,12 @@ def lubricant_plan(drive: LubricatedDrive) -> LubricantPlan:
         gives_out=cheapest is not None and intervals.gives_out_beyond(cheapest),
         missed=missed,
     )
+
+
+def _state(clock: LubricantClock, given: LubricationInput, per_hour: float) -> LubricantState:
+    """Return how a lubricant ages over hours, and what dirt adds outside phases."""
+    law = replace(clock.law, lasts=clock.law.lasts / per_hour, fades=clock.law.fades / per_hour)
+    return LubricantState(law, given.dirt.excess, given.dirt.ageing)
 
 
 def _supplied_plan(given: LubricationInput, intervals: LubricationIntervals) -> LubricantPlan:
@@ -176,7 +188,7 @@ def _part(drive: LubricatedDrive, lubricant: LubricantClock, name: str) -> WornP
     clock, own_per_hour = drive.clocks[name]
     # Running-in and powers of the cycles: constant cycles times coefficient stay the same.
     constant = clock.steady_cycles(lubricated * own_per_hour)
-    low, high = drive.bands[name]
+    low, high, _, of_condition = drive.bands[name]
     ends = clock.running_cycles(np.array([constant / high, constant / low])) / own_per_hour
     return WornPart(
         name=name,
@@ -185,6 +197,7 @@ def _part(drive: LubricatedDrive, lubricant: LubricantClock, name: str) -> WornP
         price=drive.prices[name],
         hours_low=float(ends[0]),
         hours_high=float(ends[1]),
+        of_condition=of_condition,
     )
 
 

@@ -20,7 +20,16 @@ from wearsim.result.ends import CHAIN, SPROCKET
 from wearsim.study.lubricate.model import LubricatedDrive, LubricationStudy, check_ages, lubrication_study
 from wearsim.wear.running_in import WearClock
 
-_OF_A_LUBRICANT = (*LASTS, *FADES, "dry_factor", "completeness", "contamination_removed", *SUPPLY)
+_OF_A_LUBRICANT = (
+    *LASTS,
+    *FADES,
+    "dry_factor",
+    "lasts_band_factor",
+    "dry_band_factor",
+    "completeness",
+    "contamination_removed",
+    *SUPPLY,
+)
 """Keys that do not hold for another lubricant."""
 
 _OF_APPLICATIONS = (*SCHEDULES, *APPLICATION)
@@ -103,7 +112,7 @@ def _run(case: Case | DriveCase, progress: Callable[[float], None]) -> Lubricate
         case,
         {name: _clock(case, name) for name in lives},
         lives,
-        {name: _band(case, name) for name in lives},
+        {name: case.drive.wear_band(name, case.wear) for name in lives},
         {name: prices.get(f"{name}_price") for name in lives},
         result.assumptions,
         result.warnings,
@@ -120,7 +129,7 @@ def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> Lubricate
         first,
         {name: _clock(cases.get(name, first), name) for name in lives},
         lives,
-        {name: _band(cases.get(name, first), name) for name in lives},
+        {name: of.drive.wear_band(name, of.wear) for name in lives for of in [cases.get(name, first)]},
         {
             **{name: prices.get(name) for name in lives},
             CHAIN: first.inputs.get("maintenance", {}).get("chain_price"),
@@ -133,9 +142,3 @@ def _run_drive(drive: DriveCase, progress: Callable[[float], None]) -> Lubricate
 def _clock(case: Case, part: str) -> tuple[WearClock, float]:
     """Return how a part runs in, and the cycles of an hour."""
     return (chain_clock(case) if part == CHAIN else case_clock(case)).part, case.cycles_per_hour
-
-
-def _band(case: Case, part: str) -> tuple[float, float]:
-    """Return the coefficients at the ends of the band of a part, over that of the case."""
-    low, high, _ = case.drive.wear_band(part, case.wear)
-    return low, high

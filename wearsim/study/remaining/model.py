@@ -9,7 +9,7 @@ from wearsim.case.model import Case, WearBand
 from wearsim.chain.joint_wear import JointLaw
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.part_life import simulate
-from wearsim.drive.wrap_life import chain_clock, wrap_of
+from wearsim.drive.wrap_life import chain_band, chain_clock, wrap_of
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.drive import instead_of
@@ -154,9 +154,9 @@ def remaining_life(
 
 def _band(case: Case, reading: SingleReading) -> tuple[WearBand, str]:
     """Return the band of the coefficient that a reading gives, and what that is."""
-    of_chain = reading.quantity == ELONGATION
-    part, coefficient = ("chain", JOINTS) if of_chain else ("sprocket", TEETH)
-    return case.drive.wear_band(part, case.wear), coefficient
+    if reading.quantity == ELONGATION:
+        return chain_band(case), JOINTS
+    return case.drive.wear_band("sprocket", case.wear), TEETH
 
 
 def _stretched(life: Life | LowerBound, stretch: float, gone: float) -> Life | LowerBound:

@@ -109,6 +109,8 @@ def select(
     centre_max: float | str | None = None,
     max_diameter: float | str | None = None,
     lubrication: str = "drip",
+    environment: str = "clean",
+    tooth_hardness: str = "hardened",
     shock: str = "smooth",
     hours_per_day: float = 8.0,
     series: Sequence[str] = ("A", "B", "H", "GOST"),
@@ -144,7 +146,11 @@ def select(
     max_diameter : float or str, optional
         Largest tip diameter allowed [mm].
     lubrication : str
-        ``drip``, ``oil-bath``, ``forced``, ``periodic``, ``grease`` or ``dry``.
+        ``drip``, ``oil bath``, ``forced``, ``manual``, ``greased`` or ``dry``.
+    environment : str
+        Surroundings of the chain: ``clean``, ``dust``, ``wet``, ``mud`` or ``soil``.
+    tooth_hardness : str
+        ``hardened`` or ``normalised``: it changes the life of the teeth, not that of the chain.
     shock : str
         ``smooth``, ``moderate`` or ``heavy``.
     hours_per_day : float
@@ -184,7 +190,7 @@ def select(
     >>> found = wearsim.select(power=3, rpm=120, ratio=2.7, hours=15_000, series=["A"])
     >>> best = found.drives.iloc[0]
     >>> best.designation, int(best.driver_teeth), int(best.driven_teeth)
-    ('10A-3', 18, 48)
+    ('10A-3', 18, 49)
     """
     check_ranges("select", {"count": count}, {"count": Range(1, whole=True)})
     given = {
@@ -197,6 +203,8 @@ def select(
         "centre_max": centre_max,
         "max_diameter": max_diameter,
         "lubrication": lubrication,
+        "environment": environment,
+        "tooth_hardness": tooth_hardness,
         "shock": shock,
         "hours_per_day": hours_per_day,
         "series": ",".join(series),

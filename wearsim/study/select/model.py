@@ -6,14 +6,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
-from wearsim.catalogue.catalogues import Chain, materials
+from wearsim.catalogue.catalogues import Chain, environments, materials
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links, least_centre
 from wearsim.chain.elongation_limit import elongation_limit
-from wearsim.chain.joint_wear import JointState, elongation_per_loop, joint_band, joint_law
+from wearsim.chain.joint_wear import JointBand, JointState, elongation_per_loop, joint_band, joint_law
 from wearsim.chain.rating_findings import RatedDrive, RatingFinding, assess, deciding
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension, shaft_load
 from wearsim.chain.standard_teeth import standard_tip_diameter
 from wearsim.errors import GeometryError
+from wearsim.lubrication.clock import band_of_causes
 from wearsim.lubrication.lubrication_life_factor import lubrication_life_factor
 from wearsim.lubrication.recommended import recommended_lubrication
 from wearsim.mechanisms.wrap.drive import LIGHT_CHAIN
@@ -146,12 +147,12 @@ def chain_life(
     """Return how long a chain lives by wear of its joints, at their typical wear rate.
 
     Growth of a loop by equation (E1), loops by the driver's speed, up to 3 % or 200 % over the teeth
-    of the larger sprocket.
+    of the larger sprocket. Dirt makes it shorter by its factor.
 
     Parameters
     ----------
     need : DriveRequirements
-        Speed of the driver and wear rate of the joints.
+        Speed of the driver, wear rate of the joints and surroundings.
     chain : Chain
         Pin and pitch.
     layout : DriveLayout
@@ -186,7 +187,8 @@ def chain_life(
         law.coefficient, [(tight, slack)] * 2, chain.pin_diameter, chain.pitch, teeth
     )
     loops = 60.0 * need.speed * layout.teeth_1 / layout.links
-    return elongation_limit(max(teeth)) / (growth * loops)
+    dirt = environments()[need.environment].factor
+    return elongation_limit(max(teeth)) / (growth * loops * dirt)
 
 
 def lubricated_life(
@@ -200,7 +202,7 @@ def lubricated_life(
     if not need.lubrication:
         return life
     recommended = recommended_lubrication(chain.pitch, layout.teeth_1 * chain.pitch * need.speed / 6e4)
-    factor = lubrication_life_factor(need.lubrication, recommended).factor
+    factor = lubrication_life_factor(need.lubrication, recommended, need.environment).factor
     return life if factor >= 1.0 else min(life, factor * chain_life(need.oiled, chain, layout, pressures))
 
 
@@ -237,7 +239,7 @@ def _judged(
     life = chain_life(need, chain, layout, pressures)
     lubricated = lubricated_life(need, chain, layout, pressures, life)
     state = JointState(pressures[0], rated_speed, chain.pitch)
-    band = joint_band(joint_law(need.joints), need.joints, state)
+    low, high = _life_band(need, life, joint_band(joint_law(need.joints), need.joints, state))
     tip = standard_tip_diameter(chain, large)
     links, blanks = drive_mass(chain, layout)
     price = None if prices is None else prices[chain.designation]
@@ -250,8 +252,8 @@ def _judged(
         pull=rated.pull,
         findings=findings,
         life=life,
-        life_low=life / band.high,
-        life_high=life / band.low,
+        life_low=low,
+        life_high=high,
         lubricated_life=lubricated,
         tip_diameter=tip,
         mass=links + blanks,
@@ -263,6 +265,13 @@ def _judged(
             *([Refusal(LUBRICATION, need.hours / lubricated)] if lubricated < min(life, need.hours) else []),
         ),
     )
+
+
+def _life_band(need: DriveRequirements, life: float, rate: JointBand) -> tuple[float, float]:
+    """Return the ends of a life by what is known of the rate of the joints and of what dirt does to it."""
+    dirt = environments()[need.environment]
+    by_dirt = life * dirt.factor / dirt.high, life * dirt.factor / dirt.low
+    return band_of_causes(life, [(life / rate.high, life / rate.low), by_dirt])
 
 
 def _layout(need: DriveRequirements, pitch: float, teeth_1: int, teeth_2: int) -> DriveLayout:

@@ -27,14 +27,29 @@ def select(need: DriveRequirements, prices: Mapping[str, Price] | None = None) -
     >>> need = DriveRequirements(power=3.0, speed=120.0, ratio=2.7, hours=15_000.0, series=("A",))
     >>> best = select(need)[0]
     >>> best.chain.designation, best.layout.teeth_1, best.layout.teeth_2
-    ('10A-3', 18, 48)
+    ('10A-3', 18, 49)
     """
-    return ranked(judged_drives(need, considered_chains(need, prices).chains, prices))
+    return ranked(judged_drives(need, considered_chains(need, prices).chains, prices), need.ratio)
 
 
-def ranked(drives: Iterable[CandidateDrive]) -> tuple[CandidateDrive, ...]:
-    """Return the drives that pass in their order."""
-    return tuple(sorted((one for one in drives if not one.refusals), key=rank))
+def ranked(drives: Iterable[CandidateDrive], ratio: float) -> tuple[CandidateDrive, ...]:
+    """Return the drives that pass in their order.
+
+    Drives of one chain on as many teeth of the smaller sprocket are equals: the one of the nearest ratio
+    comes first of them, and stands for them.
+    """
+    equals: dict[tuple[str, int], list[CandidateDrive]] = {}
+    for one in drives:
+        if not one.refusals:
+            teeth = min(one.layout.teeth_1, one.layout.teeth_2)
+            equals.setdefault((one.chain.designation, teeth), []).append(one)
+    groups = [sorted(group, key=lambda one: (_off(one, ratio), rank(one))) for group in equals.values()]
+    return tuple(one for group in sorted(groups, key=lambda group: rank(group[0])) for one in group)
+
+
+def _off(drive: CandidateDrive, ratio: float) -> float:
+    """Return how far a ratio is off, over what is wanted; rounded, so that two of one distance are equal."""
+    return round(abs(drive.layout.ratio / ratio - 1.0), 9)
 
 
 def best_of_each_chain(ranking: Iterable[CandidateDrive]) -> tuple[CandidateDrive, ...]:

@@ -71,7 +71,9 @@ class DriveRequirements:
     joint_application_factor: float = 1.0  # K_e on the joint pressure
     # how pin and bush wear
     joints: WearCondition = field(default_factory=lambda: wear_conditions()[USUAL_CONDITION])
-    lubrication: str = ""  # word for the supply; empty: as recommended
+    lubrication: str = ""  # row of the table of lubricants; empty: as recommended
+    environment: str = "clean"  # row of the table of environments
+    tooth_hardness: str = "hardened"  # in words: for the case of a drive, its chain does not depend on it
     centre: float | None = None  # distance of the shafts [mm]
     centre_min: float | None = None  # bounds of it where it may be chosen [mm]
     centre_max: float | None = None
@@ -90,8 +92,9 @@ class DriveRequirements:
 
     @cached_property
     def oiled(self) -> "DriveRequirements":
-        """The same with joints oiled as recommended, which published factors of a lubrication refer to."""
-        return replace(self, joints=wear_conditions()[USUAL_CONDITION], lubrication="")
+        """The same with clean joints, oiled as recommended, to which published factors refer."""
+        oiled = wear_conditions()[USUAL_CONDITION]
+        return replace(self, joints=oiled, lubrication="", environment="clean")
 
     def allows(self, small: int, large: int) -> bool:
         """Return whether two numbers of teeth give the ratio within its tolerance."""

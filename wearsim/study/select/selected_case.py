@@ -4,7 +4,6 @@ import math
 from typing import Any
 
 from wearsim.chain.elongation_limit import elongation_limit
-from wearsim.chain.service_conditions import LUBRICATIONS
 from wearsim.chain.standard_teeth import standard_form
 from wearsim.study.select.model import SAG, CandidateDrive
 from wearsim.study.select.requirements import DriveRequirements
@@ -40,15 +39,20 @@ def case_tables(drive: CandidateDrive, need: DriveRequirements, hours_per_day: f
             "joint_application_factor": _digits(need.joint_application_factor),
         },
         "load": {"power_kW": need.power, "speed_rpm": need.speed},
-        "wear": {"condition": need.joints.condition},
-        **(
-            {"lubrication": {"lubricant": LUBRICATIONS[need.lubrication].lubricant}}
-            if need.lubrication
-            else {}
-        ),
+        **_lubricated(need),
         # Rounded down, so that it stays within the rule.
         "stop": {"elongation_percent": math.floor(1e4 * limit + 1e-6) / 1e4},
         "service": {"hours_per_day": hours_per_day},
+    }
+
+
+def _lubricated(need: DriveRequirements) -> dict[str, Any]:
+    """Return the tables of a case that say how its contacts are lubricated."""
+    if not need.lubrication:
+        return {"wear": {"condition": need.joints.condition}}
+    return {
+        "wear": {"tooth_hardness": need.tooth_hardness},
+        "lubrication": {"lubricant": need.lubrication, "environment": need.environment},
     }
 
 

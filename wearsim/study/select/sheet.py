@@ -34,7 +34,7 @@ class SelectionAnswer:
     @cached_property
     def passing(self) -> tuple[CandidateDrive, ...]:
         """The drives that pass in their order."""
-        return ranked(self.drives)
+        return ranked(self.drives, self.need.ratio)
 
     @cached_property
     def shown(self) -> tuple[CandidateDrive, ...]:
@@ -45,10 +45,11 @@ class SelectionAnswer:
     @property
     def criterion(self) -> str:
         """What the drives are ordered by, in words."""
+        equals = "for a chain and a small sprocket the nearest ratio; then teeth, chain"
         weighed = "chain q X p and sprockets as steel discs of pitch diameter and tooth width, no hubs"
         if self.priced:
-            return "cost: metres of chain and kilograms of sprockets at the prices given; then teeth, chain"
-        return f"mass: {weighed}; then teeth, chain"
+            return f"cost: metres of chain and kilograms of sprockets at the prices given; {equals}"
+        return f"mass: {weighed}; {equals}"
 
 
 def answer_to(wish: Wish, every_pair: bool, count: int) -> SelectionAnswer:

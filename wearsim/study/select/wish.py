@@ -51,10 +51,10 @@ def read_wish(texts: Mapping[str, str | None], price: Path | None) -> Wish:
     faults: list[Fault] = []
     given = _numbers(texts, faults)
     hours_per_day = given.pop("hours_per_day", 8.0)
-    words = str(texts["lubrication"]), str(texts["shock"])
+    words = {name: str(texts[name]) for name in ("lubrication", "environment", "tooth_hardness", "shock")}
     service, prices = None, None
     try:
-        service = service_conditions(*words, hours_per_day)
+        service = service_conditions(hours_per_day=hours_per_day, **words)
     except CaseError as error:
         faults += _by_option(error.faults)
     faults += _by_option(requirement_faults(given))
@@ -71,8 +71,10 @@ def read_wish(texts: Mapping[str, str | None], price: Path | None) -> Wish:
         joint_application_factor=service.joint_application_factor,
         joints=wear_conditions()[service.wear_condition],
         lubrication=service.lubrication,
+        environment=service.environment,
+        tooth_hardness=service.tooth_hardness,
     )
-    use = f"{words[0]}, {words[1]} load, {hours_per_day:g} h a day"
+    use = f"{service.lubrication}, {service.environment}, {words['shock']} load, {hours_per_day:g} h a day"
     return Wish(need, hours_per_day, use, prices)
 
 
