@@ -8,7 +8,7 @@ import pytest
 import wearsim
 from tests import drives
 
-from .ui_server import Server
+from .ui_server import REMEMBERED, Server
 
 ARGUMENTS = [
     "--no-sandbox",
@@ -84,6 +84,7 @@ def reports(results, tmp_path_factory):
 @pytest.fixture
 def watched(page):
     """A page that remembers what it asked for and what its console said."""
+    page.context.add_init_script(REMEMBERED)
     page.requested, page.said = [], []
     page.on("request", lambda request: page.requested.append(request.url))
     page.on("console", lambda message: page.said.append(message.text))

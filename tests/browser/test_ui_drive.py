@@ -9,7 +9,17 @@ from wearsim.drive.life import drive_life
 from wearsim.drive.load_case import load_drive
 from wearsim.report.drive.drive_text import drive_text
 
-from .ui_server import COMMAND, eventually, field, opened, settled, shown_hours, source
+from .ui_server import (
+    COMMAND,
+    comes_to,
+    eventually,
+    field,
+    forget_states,
+    opened,
+    settled,
+    shown_hours,
+    source,
+)
 
 pytestmark = [
     pytest.mark.slow,
@@ -89,8 +99,9 @@ def test_a_drive_shows_what_the_command_prints_and_follows_an_edit(watched, serv
         page.set_viewport_size({"width": width, "height": 900})
         page.wait_for_function(f"document.documentElement.scrollWidth <= {width}")
 
+    forget_states(page)
     field(page, "sprocket.1.teeth").fill("18")
-    page.wait_for_selector('.ws-state[data-state="computing"]')
+    comes_to(page, "computing")
     settled(page)
     eventually(lambda: page.get_by_text("Sprocket 1: 18 teeth").count(), bool)
     page.get_by_role("button", name="Save", exact=True).click()
@@ -129,8 +140,9 @@ def test_only_the_last_of_several_edits_is_answered(watched, serve):
         " {subtree: true, childList: true, characterData: true}); }"
     )
     for value in ("2.1", "2.2", "2.3"):
+        forget_states(page)
         field(page, "load.power_kW").fill(value)
-        page.wait_for_selector('.ws-state[data-state="estimate"]')
+        comes_to(page, "estimate")
     settled(page)
     said = page.evaluate("seen")
     assert any(re.search(r"\(\d+ %\)", text) for text in said)

@@ -14,7 +14,17 @@ import wearsim
 from wearsim.result.lives import hours
 
 from .conftest import HOSTILE
-from .ui_server import COMMAND, eventually, field, opened, settled, shown_hours, source
+from .ui_server import (
+    COMMAND,
+    comes_to,
+    eventually,
+    field,
+    forget_states,
+    opened,
+    settled,
+    shown_hours,
+    source,
+)
 
 pytestmark = [
     pytest.mark.slow,
@@ -354,10 +364,11 @@ def test_a_wrap_shows_an_estimate_then_its_life_and_only_of_the_last_input(watch
         "document.querySelector('.ws-now').innerText)).observe(document.querySelector('.ws-now'),"
         " {subtree: true, childList: true, characterData: true}); }"
     )
+    forget_states(page)
     for value in ("2.1", "2.2", "2.3"):
         field(page, "load.power_kW").fill(value)
         page.wait_for_timeout(300)
-    page.wait_for_selector('.ws-state[data-state="estimate"]')
+    comes_to(page, "estimate")
     settled(page)
     assert shown_hours(page) == life(server.path, "load.power_kW=2.3")
     current = {text.split("\n")[0] for text in page.evaluate("seen") if "up to date" in text}
@@ -403,7 +414,7 @@ def test_closing_the_page_ends_its_calculation(watched, context, serve):
     server = serve(SLOW_WRAP)
     page = context.new_page()
     page.goto(server.url)
-    page.wait_for_selector('.ws-state[data-state="estimate"]', timeout=300_000)
+    comes_to(page, "estimate", 300)
     page.close()
     other = opened(watched, server)
     assert shown_hours(other) == life(server.path)
@@ -412,7 +423,7 @@ def test_closing_the_page_ends_its_calculation(watched, context, serve):
 def test_the_server_stops_while_it_computes(watched, serve):
     server = serve(SLOW_WRAP)
     watched.goto(server.url)
-    watched.wait_for_selector('.ws-state[data-state="estimate"]', timeout=60_000)
+    comes_to(watched, "estimate")
     start = time.monotonic()
     code, said = server.stop()
     assert code == 130

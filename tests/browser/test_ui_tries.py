@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from .ui_server import eventually, field, opened, settled, shown_hours, source
+from .ui_server import comes_to, eventually, field, forget_states, opened, settled, shown_hours, source
 
 pytestmark = [
     pytest.mark.slow,
@@ -60,8 +60,9 @@ def compared(page):
 
 def answered(page, key, value):
     """Type a value and wait for its answer."""
+    forget_states(page)
     field(page, key).fill(value)
-    page.wait_for_selector('.ws-state[data-state="computing"]')
+    comes_to(page, "computing")
     settled(page)
 
 

@@ -42,6 +42,24 @@ def settled(page, seconds=60):
     page.wait_for_selector('.ws-state[data-state="current"]', timeout=1000 * seconds)
 
 
+REMEMBERED = """
+window.states = [];
+new MutationObserver(() => {
+  const state = document.querySelector('.ws-state')?.dataset.state;
+  if (state && states.at(-1) !== state) states.push(state);
+}).observe(document, {subtree: true, childList: true, attributes: true, attributeFilter: ['data-state']});
+"""
+"""Keeps the states that a page has shown: one may be gone before a browser draws it."""
+
+
+def forget_states(page):
+    page.evaluate("states.length = 0")
+
+
+def comes_to(page, state, seconds=60):
+    page.wait_for_function("state => states.includes(state)", arg=state, timeout=1000 * seconds)
+
+
 def opened(page, server):
     page.goto(server.url)
     settled(page)

@@ -399,6 +399,35 @@ def test_uncertainty_of_a_case_without_wear() -> None:
 def test_maintain_refuses_a_lubricant_that_changes() -> None:
     from wearsim.study.maintain.model import maintain
 
-    case = wearsim.load_case({**WRAP, "lubrication": {"lubricant": "drip", "environment": "dust"}})
+    dries = {"lubricant": "manual", "lasts_hours": 20, "interval_hours": 30}
     with pytest.raises(CaseError, match="wearsim lubricate"):
-        maintain(case)
+        maintain(wearsim.load_case({**WRAP, "lubrication": dries}))
+
+
+def test_remaining_takes_dirt_that_stays() -> None:
+    """Dust multiplies all wear by 3.6, so that a reading tells the same life in hours."""
+    found = [
+        wearsim.remaining(
+            wearsim.load_case({**WRAP, "lubrication": {"lubricant": "drip", "environment": word}}),
+            hours=100.0,
+            elongation_percent=1.0,
+        )
+        for word in ("clean", "dust")
+    ]
+    assert found[1].found.life.hours == pytest.approx(found[0].found.life.hours, rel=1e-9)
+    assert found[1].found.factor == pytest.approx(found[0].found.factor / 3.6, rel=1e-9)
+
+
+@pytest.mark.parametrize("command", ["uncertainty", "sensitivity"])
+def test_studies_take_a_case_with_a_hardness(cli, tmp_path, command):
+    """As `init` writes it: the rate that a study gives takes the place of the hardness."""
+    path = tmp_path / "strand.toml"
+    path.write_text(
+        'format_version = 1\n[chain]\ndesignation = "16B-1"\n[sprocket]\nteeth = 20\nprofile = "evolute"\n'
+        "nodes = 51\n[load]\npower_kW = 3\nspeed_rpm = 100\n[run]\nlife_tolerance = 0.1\n"
+        '[wear]\ntooth_hardness = "normalised"\n[lubrication]\nlubricant = "manual"\n'
+    )
+    more = ("--samples", 8) if command == "uncertainty" else ()
+    done = cli(command, path, *more)
+    assert done.code == 0, done.err
+    assert "failed" not in done.out + done.err

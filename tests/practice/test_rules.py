@@ -145,6 +145,7 @@ def test_speed_limits_of_lubrication_do_not_jump(edge):
         ("drip", "clean", "one type below", 0.4),
         ("oil bath", "dust", "one type below", 0.4),
         ("drip", "dust", "insufficient", 0.1),
+        ("forced", "dust", "as recommended", 1.0),
         ("manual", "clean", "insufficient", 0.1),
         ("oil bath", "mud", "insufficient, dirty", 0.03),
         ("dry", "clean", "dry, clean", 0.04),
@@ -163,7 +164,7 @@ def test_life_with_another_lubrication_than_a_bath(drive, supplied, environment,
 
 @pytest.mark.parametrize("supplied", ["manual", "greased"])
 def test_a_brush_now_and_then_is_less_than_drip(supplied):
-    assert lubrication_life_factor(supplied, "drip").state == "manual"
+    assert lubrication_life_factor(supplied, "drip").state == "now and then"
 
 
 @pytest.mark.parametrize(

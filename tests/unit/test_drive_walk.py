@@ -103,9 +103,21 @@ def second(**keys):
 
 
 OILED = {"condition": "hardened, oiled"}
+_PLACE = ("name", "role", "position_mm", "outside", "take_up")
+SMOOTH = {
+    **LOOP,
+    "sprocket": [
+        {**{key: one[key] for key in _PLACE if key in one}, "smooth_diameter_mm": 45.0}
+        if number == 1
+        else one
+        for number, one in enumerate(LOOP["sprocket"])
+    ],
+}
+
 MORE = {
     "two": TWO,
     "loop": LOOP,
+    "smooth": SMOOTH,
     "by hand": BY_HAND,
     "torques": TORQUES,
     "cassette": CASSETTE,
@@ -182,6 +194,7 @@ OWN_CHANGES = {
     "sprocket.2.take_up.guide_deg": [("loop", -45.0), ("by hand", -38.5)],
     "sprocket.2.take_up.travel_mm": [("loop", [-24, 30]), ("loop", [0, 0.1], "sprocket.2")],
     "sprocket.2.take_up.tensioner_force_N": [("loop", 90)],
+    "sprocket.2.smooth_diameter_mm": [("smooth", 45.5), ("loop", 45.0, "sprocket.2.teeth")],
     "sprocket.2.cog.1.teeth": [("cassette", 14), ("cassette", 17, "sprocket.2.cog")],
     "sprocket.2.cog.1.share_of_time": [("cassette", 0.3, "sprocket.2.cog")],
     "sprocket.2.price": [("priced", 50.0), ("two", 50.0, "sprocket.2.price")],

@@ -100,7 +100,7 @@ def test_two_strands_say_how_they_share():
 @pytest.mark.parametrize(
     ("speed", "needed", "state"),
     [
-        (120, "manual or drip (type A", "drip: as recommended"),
+        (120, "drip, or by hand every 8 hours (type A", "drip: as recommended"),
         (200, "oil bath or disc (type B", "drip: one type below"),
         (1400, "oil stream (type C", "drip: insufficient"),
     ],

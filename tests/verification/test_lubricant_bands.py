@@ -69,7 +69,7 @@ def test_the_cliff_lies_in_the_band_and_is_told() -> None:
     beyond = life({"lubrication.interval_hours": 92})
     assert near.life_low.hours < beyond < 0.5 * near.life.hours
     [told] = [text for text in near.warnings if "hangs on how long the lubricant lasts" in text]
-    assert "55.56 h and not 83.33 h" in told
+    assert "lasts, 83.33 h: with 55.56 h, " in told
     safe = wearsim.simulate(wearsim.load_case(changed(OILED_BY_HAND, {"lubrication.interval_hours": 50})))
     assert not any("hangs on" in text for text in safe.warnings)
 
@@ -190,3 +190,46 @@ def test_every_sprocket_has_its_hardness() -> None:
     first, second = (one.case for one in wearsim.load_case(drive).sprockets)
     assert (first.wear.coefficient, second.wear.coefficient) == (7.5e-11, 5e-10)
     assert first.drive.joint.coefficient == second.drive.joint.coefficient == 1.8e-10
+
+
+def test_no_warning_of_a_condition_that_nobody_gave() -> None:
+    base = {key: table for key, table in STRAND.items() if key != "wear"}
+    soft = {"wear": {"tooth_hardness": "normalised"}, "lubrication": {"lubricant": "manual"}}
+    assert wearsim.load_case({**base, **soft}).warnings == ()
+    law = {**soft, "wear": {**soft["wear"], "law": "archard"}}
+    assert wearsim.load_case({**base, **law}).wear.coefficient == 5e-10
+
+
+def test_dirt_that_may_be_worse_than_the_threshold_is_held_below_it() -> None:
+    """Dust may wear 6.3 times as fast; relubricated at 5 times, it would be for ever."""
+    by_rate = changed(OILED_BY_HAND, {"lubrication.when_rate_exceeds": 5})
+    del by_rate["lubrication"]["interval_hours"]
+    found = wearsim.simulate(wearsim.load_case(by_rate))
+    assert found.life_low.hours < found.life.hours < found.life_high.hours
+
+
+def test_a_band_of_a_cause_may_lie_on_one_side() -> None:
+    """Both ends shorter than the middle: nothing is longer by it."""
+    assert band_of_causes(100.0, [(80.0, 50.0)]) == pytest.approx((50.0, 100.0))
+
+
+def test_the_locked_case_has_the_same_band(tmp_path: Any) -> None:
+    found = wearsim.simulate(wearsim.load_case(OILED_BY_HAND))
+    found.save(tmp_path / "out")
+    again = wearsim.simulate(wearsim.load_case(tmp_path / "out" / "case.lock.toml"))
+    assert (again.life_low, again.life_high) == (found.life_low, found.life_high)
+
+
+def test_soil_beside_dry_contacts_is_warned_of() -> None:
+    base = {key: table for key, table in STRAND.items() if key != "wear"}
+    case = wearsim.load_case({**base, "lubrication": {"lubricant": "dry", "environment": "soil"}})
+    assert any("counts the missing oil twice" in text for text in case.warnings)
+
+
+def test_contacts_that_run_dry_are_told() -> None:
+    """The oil lasts 83.3 h of 120: (83.3 + 36.7 x 39)/120 = 12.6 times the wear in the mean."""
+    dry = wearsim.simulate(wearsim.load_case(changed(OILED_BY_HAND, {"lubrication.interval_hours": 120})))
+    [told] = [text for text in dry.warnings if "is renewed every" in text]
+    assert "lasts 83.33 h and is renewed every 120 h: contacts wear 12.6 times as fast" in told
+    near = wearsim.simulate(wearsim.load_case(OILED_BY_HAND))
+    assert not any("is renewed every" in text for text in near.warnings)

@@ -88,7 +88,7 @@ class Drive:
 
     def wear_band(self, part: str, wear: "WearInput") -> "WearBand":
         """Return the band of the coefficient that ends the life of a part."""
-        return WearBand(wear.low, wear.high, wear.band, wear.of_condition)
+        return WearBand(wear.low, wear.high, wear.band, wear.band_is_given)
 
     @property
     def pitch_line_thickness(self) -> float:
@@ -202,7 +202,7 @@ class WearInput:
     low: float
     high: float
     band: str  # where the band comes from
-    of_condition: bool = False  # whether it is that of a wear condition
+    band_is_given: bool = False  # whether the user says it of this drive
     # case_depth, core_factor: depth of the hardened layer [mm] and what the coefficient is multiplied by
     # below it
     case_depth: float = math.inf
@@ -251,7 +251,7 @@ class WearBand(NamedTuple):
     low: float
     high: float
     source: str  # where the band comes from
-    of_condition: bool = False  # whether it is that of a wear condition, so that not the user has told it
+    is_given: bool = False  # whether the user says it of this drive, so that it holds all that is not known
 
 
 _NORMAL_95 = 1.6448536269514722

@@ -115,6 +115,7 @@ def _law(case: CaseRecord, table: WearTable) -> WearInput:
         low=1.0 / factor,
         high=factor,
         band=f"factor {factor:g} to either side",
+        band_is_given=table.band_factor is not None,
     )
 
 
@@ -140,6 +141,7 @@ def _own_law(case: CaseRecord, table: WearTable, law: OwnWearLaw) -> WearInput:
         low=1.0 / factor,
         high=factor,
         band=f"factor {factor:g} to either side",
+        band_is_given=table.band_factor is not None,
     )
 
 
@@ -183,7 +185,7 @@ def _condition(case: CaseRecord, table: WearTable, name: str) -> WearInput:
         f"specific wear rate {typical:g} mm2/N, {condition.low:g} to {condition.high:g} "
         f"(wear condition {name!r})"
     )
-    return WearInput("archard", typical, {}, low, high, band, table.band_factor is None)
+    return WearInput("archard", typical, {}, low, high, band, table.band_factor is not None)
 
 
 def fatigue_input(case: CaseRecord, table: FatigueTable | None) -> FatigueInput | None:

@@ -29,7 +29,7 @@ _NO_WRAP = 1e-9
 
 @dataclass(frozen=True)
 class Wheel:
-    """A sprocket of a loop.
+    """A sprocket of a loop, or a smooth wheel that the rollers of the chain run on.
 
     Examples
     --------
@@ -39,8 +39,9 @@ class Wheel:
 
     name: str  # unlike that of any other wheel of the loop
     centre: tuple[float, float]  # x, y [mm]; y points upwards
-    teeth: int  # gaps, at least 5
+    teeth: int  # gaps, at least 5; 0 of a smooth wheel
     outside: bool = False  # whether the chain runs round it with its back
+    radius: float = 0.0  # of a smooth wheel [mm]; 0 of a sprocket
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,7 @@ class ChainLoop:
     # by how much the pitch of the chain has grown; its rollers ride as much higher on the wheels
     elongation: float = 0.0
     clockwise: bool = False  # whether the chain runs round the whole loop clockwise
+    roller_radius: float = 0.0  # by which joints lie further out than a smooth wheel [mm]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "wheels", tuple(self.wheels))
@@ -90,8 +92,12 @@ class ChainLoop:
 
     @cached_property
     def teeth(self) -> Floats:
-        """Teeth of the wheels, shape (n,)."""
-        return np.array([wheel.teeth for wheel in self.wheels], float)
+        """Teeth of the wheels, shape (n,); of a smooth one the links that lie round all of it."""
+        return np.array([wheel.teeth or self._links_round(wheel) for wheel in self.wheels], float)
+
+    def _links_round(self, wheel: Wheel) -> float:
+        """Chords of the pitch on the circle through the joints on a smooth wheel."""
+        return math.pi / math.asin(0.5 * self.chain_pitch / (wheel.radius + self.roller_radius))
 
     @cached_property
     def senses(self) -> Floats:
@@ -111,12 +117,23 @@ class ChainLoop:
     @cached_property
     def pitch_radii(self) -> Floats:
         """Radii of the circles through the joints [mm], shape (n,)."""
-        return np.array([0.5 * pitch_diameter(self.chain_pitch, wheel.teeth) for wheel in self.wheels])
+        return np.array(
+            [
+                0.5 * pitch_diameter(self.chain_pitch, wheel.teeth)
+                if wheel.teeth
+                else wheel.radius + self.roller_radius
+                for wheel in self.wheels
+            ]
+        )
 
     @property
     def tip_radii(self) -> Floats:
-        """Radii of the tips [mm], shape (n,), with the diameters p (0.6 + cot(pi/z)) of ANSI B29.1."""
-        return 0.5 * self.pitch * (0.6 + 1.0 / np.tan(math.pi / self.teeth))
+        """Radii of the tips [mm], shape (n,), with the diameters p (0.6 + cot(pi/z)) of ANSI B29.1.
+
+        Of a smooth wheel its own.
+        """
+        tips = 0.5 * self.pitch * (0.6 + 1.0 / np.tan(math.pi / self.teeth))
+        return np.array([wheel.radius or tip for wheel, tip in zip(self.wheels, tips, strict=True)])
 
     @property
     def mean_radii(self) -> Floats:
@@ -208,10 +225,20 @@ def _number_faults(loop: ChainLoop) -> Iterator[str]:
     for name in sorted({name for name in names if names.count(name) > 1}):
         yield f"wheels must have names of their own, {names.count(name)} are called {name!r}: rename them"
     for wheel in loop.wheels:
-        if wheel.teeth < 5:
+        if not wheel.radius and wheel.teeth < 5:
             yield f"wheel {wheel.name!r} needs at least 5 teeth, has {wheel.teeth}: use more"
+        if wheel.radius and not (width := 2.0 * wheel.radius) >= (least := _least_width(loop)):
+            yield (
+                f"the smooth wheel {wheel.name!r} must be at least {least:.4g} mm wide, as 5 links round it "
+                f"are, is {width:.4g} mm: use a larger one"
+            )
         if len(wheel.centre) != 2 or not np.all(np.isfinite(wheel.centre)):
             yield f"wheel {wheel.name!r} needs a centre of two finite numbers, has {wheel.centre}: correct it"
+
+
+def _least_width(loop: ChainLoop) -> float:
+    """Return the diameter of a smooth wheel round which 5 links lie [mm]."""
+    return pitch_diameter(loop.chain_pitch, 5) - 2.0 * loop.roller_radius
 
 
 def _overlap_faults(loop: ChainLoop) -> Iterator[str]:

@@ -73,14 +73,15 @@ class LoopLayout:
         return float(self.loop.wrap_angles[self.wheel])
 
     @property
-    def mates(self) -> tuple[int, ...]:
-        """Teeth of the other wheels."""
-        return tuple(int(wheel.teeth) for i, wheel in enumerate(self.loop.wheels) if i != self.wheel)
+    def mates(self) -> tuple[float, ...]:
+        """Teeth of the other wheels, of a smooth one the links round it."""
+        each = zip(self.loop.wheels, self.loop.teeth.tolist(), strict=True)
+        return tuple(wheel.teeth or links for i, (wheel, links) in enumerate(each) if i != self.wheel)
 
     @property
     def all_teeth(self) -> tuple[int, ...]:
-        """Teeth of all wheels."""
-        return tuple(wheel.teeth for wheel in self.loop.wheels)
+        """Teeth of all sprockets."""
+        return tuple(wheel.teeth for wheel in self.loop.wheels if wheel.teeth)
 
     @property
     def rated_teeth(self) -> tuple[int, ...]:

@@ -300,5 +300,6 @@ def galling_speed(pitch: float, teeth: float, tension: float) -> float:
     2602
     """
     inches, pounds = pitch / _INCH, tension / _POUND
-    right = 82.5 / (7.95**inches * 1.0278**teeth * 1.323 ** (pounds / 1000.0))
+    # Beyond two million pounds the speed is 0 to any digit.
+    right = 82.5 / (7.95**inches * 1.0278**teeth * 1.323 ** min(pounds / 1000.0, 2000.0))
     return float(1000.0 * right ** (1.0 / (1.59 * math.log10(inches) + 1.873)))

@@ -80,7 +80,7 @@ class DriveCase(ReadTables):
         of_driver = {**self.driver.case.inputs, "drive": {**self.driver.case.inputs["drive"]}}
         of_driver["drive"].pop("mate_teeth", None)
         sprockets = [
-            {**self.single_cases[wheel.parts[0]].inputs["sprocket"], **given}
+            {**(self.single_cases[wheel.parts[0]].inputs["sprocket"] if wheel.parts else {}), **given}
             for wheel, given in zip(self.wheels, self.inputs["sprocket"], strict=True)
         ]
         return {**self.inputs, **of_driver, "title": self.title, "sprocket": sprockets}

@@ -42,26 +42,50 @@ def late_relubrication(
     return found
 
 
+_DRY = 2.0
+"""Mean wear over that of a lubricant which lasts from which running dry is said."""
+
+
+def dry_warning(case: Case, clock: LubricatedClock) -> list[str]:
+    """Return a warning where contacts run dry in a large part of every interval between relubrications."""
+    given, lubricant = case.lubrication, clock.lubricant
+    if given is None or given.interval is None or given.phases or math.isinf(lubricant.repeats):
+        return []
+    times = lubricant.lasting_factor / (1.0 + given.dirt.excess)
+    if times < _DRY:
+        return []
+    per_hour = case.cycles_per_hour
+    lasts, every = lubricant.law.lasts / per_hour / given.dirt.ageing, lubricant.repeats / per_hour
+    return [
+        f"the lubricant lasts {grouped(lasts)} h and is renewed every {grouped(every)} h: contacts wear "
+        f"{times:.3g} times as fast in the mean as while it lasts; relubricate sooner"
+    ]
+
+
 _HANGS_ON = 0.5
 """Life at the lower end of how long the lubricant lasts, over the life, below which that is said."""
 
 
-def lasting_warning(case: Case, clock: LubricatedClock, part: str, life: Life | LowerBound) -> list[str]:
-    """Return a warning where a life hangs on how long the lubricant lasts, which nobody knows to the hour."""
+def lasting_warning(
+    case: Case, clock: LubricatedClock, part: str, life: Life | LowerBound, is_given: bool
+) -> list[str]:
+    """Return a warning where a life hangs on how long the lubricant lasts, which nobody knows to the hour.
+
+    Only where its band holds that, which one does not that the user gives.
+    """
     given = case.lubrication
-    found = next((ends for ends in clock.ends if ends.unsure == LASTING), None)
-    if given is None or found is None:
+    found = next((ends for ends in clock.ends_beside(is_given) if ends.unsure == LASTING), None)
+    if given is None or given.phases or found is None or not isinstance(life, Life):
         return []
-    sooner = clock.run_by(found.worse, clock.steady_cycles(life.cycles_run))
-    if sooner >= _HANGS_ON * life.cycles_run:
+    sooner = clock.run_by(found.worse, clock.steady_cycles(life.cycles))
+    if sooner >= _HANGS_ON * life.cycles:
         return []
     per_hour = case.cycles_per_hour * given.dirt.ageing
     lasts, less = (grouped(one.law.lasts / per_hour) for one in (clock.lubricant, found.worse))
-    then = grouped(sooner / case.cycles_per_hour)
     return [
-        f"the life of the {part} hangs on how long the lubricant lasts: {then} h instead of "
-        f"{grouped(life.hours_run)} h if that is {less} h and not {lasts} h, which its band holds; "
-        "relubricate sooner"
+        f"the life of the {part} hangs on how long the lubricant lasts, {lasts} h: with {less} h, "
+        f"which its band holds, that life is {grouped(sooner / case.cycles_per_hour)} h and not "
+        f"{grouped(life.hours)} h; relubricate sooner"
     ]
 
 

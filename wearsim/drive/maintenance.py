@@ -138,7 +138,7 @@ def part_lives(found: DriveLife) -> dict[str, Life | LowerBound]:
     earliest = found.earliest_lives
     lives = {CHAIN: earliest[CHAIN]}
     for wheel in found.drive.wheels:
-        if not found.failed.keys().isdisjoint(wheel.parts):
+        if not wheel.parts or not found.failed.keys().isdisjoint(wheel.parts):
             continue
         cogs = [earliest[name] for name in wheel.parts]
         lives[wheel.name] = min(cogs, key=lambda life: (life.hours_run, isinstance(life, LowerBound)))
@@ -149,11 +149,10 @@ def drive_prices(drive: DriveCase) -> Prices | None:
     """Return the prices of the parts of a drive; None where one is not given."""
     tables = {one.name: maintenance_of(one.case.inputs) for one in drive.sprockets}
     first = tables[drive.sprockets[0].name]
+    worn = [wheel for wheel in drive.wheels if wheel.parts]
     prices = {
-        wheel.name: price
-        for wheel in drive.wheels
-        if (price := tables[wheel.parts[0]].sprocket_price) is not None
+        wheel.name: price for wheel in worn if (price := tables[wheel.parts[0]].sprocket_price) is not None
     }
-    if first.chain_price is None or len(prices) < len(drive.wheels):
+    if first.chain_price is None or len(prices) < len(worn):
         return None
     return Prices(first.chain_price, prices, first.stop_cost)

@@ -10,7 +10,7 @@ from wearsim.contact.engagement import FlankContact, Mechanism
 from wearsim.contact.hertz import peak_pressure
 from wearsim.drive.flank_grids import LEVELS, FlankRun, GridSearch, SettledLife, settle_grid
 from wearsim.drive.history import common_history
-from wearsim.drive.lubricant import lasting_warning, late_relubrication
+from wearsim.drive.lubricant import dry_warning, lasting_warning, late_relubrication
 from wearsim.drive.validity import few_cycles, film_assumptions, validity
 from wearsim.drive.wear_task import WearTask, clock_assumptions, limit_states, new_flank_pressure, wear_task
 from wearsim.errors import WearsimError
@@ -34,7 +34,8 @@ def simulate_points(case: Case, progress: Callable[[float], None] = lambda part:
     if run.met is not None:
         warnings += few_cycles(float(run.cycles[-1]))
     warnings += late_relubrication(case, task.clock.lubricant, {"flank": _life(case, run)})
-    warnings += lasting_warning(case, task.clock, "flank", _life(case, run))
+    warnings += dry_warning(case, task.clock)
+    warnings += lasting_warning(case, task.clock, "flank", _life(case, run), case.wear.band_is_given)
     # On the points of the case, as all that is asked of a new flank.
     new_pressure = new_flank_pressure(new.contact)
     fatigue = _fatigue(case, _life(case, run), new_pressure, warnings)
@@ -45,7 +46,7 @@ def simulate_points(case: Case, progress: Callable[[float], None] = lambda part:
         life=_life(case, run),
         life_low=low,
         life_high=high,
-        band=task.clock.band_source(case.wear.band, case.wear.of_condition),
+        band=task.clock.band_source(case.wear.band, case.wear.band_is_given),
         stop=run.met.name if run.met else "horizon_hours",
         stop_value=run.met.limit if run.met else case.run.horizon_hours,
         cycles_run=float(run.cycles[-1]),
@@ -188,7 +189,7 @@ def _band(
     life = _life(case, run)
     steady = task.clock.steady_cycles(life.cycles_run)
     wear = case.wear
-    least, most = task.clock.factors(steady, wear.low, wear.high, wear.of_condition)
+    least, most = task.clock.factors(steady, wear.low, wear.high, wear.band_is_given)
     if isinstance(life, Life):
         factors = np.array([most, least])
         low, high = task.clock.running_cycles(steady / factors).tolist()

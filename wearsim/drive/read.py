@@ -123,7 +123,8 @@ def _sprockets(
         if f"sprocket.{number + 1}" in wrong:
             continue
         all_teeth = [teeth for teeth, _ in wheel.cogs] or [wheel.teeth]
-        for name, teeth in zip(wheel.parts, all_teeth, strict=True):
+        # A smooth idler is no part that wears.
+        for name, teeth in zip(wheel.parts, all_teeth, strict=False):
             running = [replace(one, teeth=teeth) if one is wheel else one for one in wheels]
             own = part_tables(tables, running, number, links if wheel.cogs else None)
             case = _case(document, own, running, shares, number)

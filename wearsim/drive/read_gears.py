@@ -37,7 +37,7 @@ def read_gears(document: Document) -> Case:
         limit = tables.stop.critical_depth_mm
         case.take("stop.wheel_critical_depth_mm", limit, "as of the pinion")
     fatigue = fatigue_input(case, tables.fatigue)
-    lubrication = lubrication_input(case, tables.lubrication, None, None)
+    lubrication = lubrication_input(case, tables.lubrication, None, None, None)
     faults.check()
     assert drive is not None
     return Case(

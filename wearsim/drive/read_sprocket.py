@@ -99,7 +99,10 @@ def complete_case(tables: CaseTables, document: Document, build: Builder) -> Cas
     run = run_input(case, tables.run, (drive or Drive).life_tolerance)
     fatigue = fatigue_input(case, tables.fatigue)
     per_hour = tables.service.km_per_hour if tables.service else None
-    lubrication = lubrication_input(case, tables.lubrication, per_hour, tables.wear.condition)
+    wear_table = tables.wear
+    lubrication = lubrication_input(
+        case, tables.lubrication, per_hour, wear_table.condition, wear_table.tooth_hardness
+    )
     if drive is None or duty is None or faults.count > before:
         return None
     return Case(

@@ -23,7 +23,9 @@ class DriveWheel:
 
     name: str
     role: str  # `driver`, `driven` or `idler`
-    teeth: int  # of a cassette those of the cog that the chain runs on, first of the one that runs longest
+    # of a cassette those of the cog that the chain runs on, first of the one that runs longest; 0 of a
+    # smooth idler
+    teeth: int
     table: PlacedSprocketTable
 
     @property
@@ -38,7 +40,9 @@ class DriveWheel:
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Names under which it is run: its own, or those of all cogs of a cassette."""
+        """Names under which it is run: its own, those of all cogs of a cassette, none of a smooth idler."""
+        if self.table.smooth_diameter_mm is not None:
+            return ()
         return tuple(f"{self.name} {teeth}T" for teeth, _ in self.cogs) or (self.name,)
 
     @property
@@ -79,6 +83,7 @@ def part_names(tables: Mapping[str, Any]) -> tuple[str, ...]:
     return "chain", *(
         wheel_name(table.get("name"), table.get("role"), number, len(named))
         for number, table in enumerate(named, start=1)
+        if "smooth_diameter_mm" not in table
     )
 
 
@@ -99,8 +104,7 @@ def _usual_role(number: int) -> str:
 
 
 def _wheel(number: int, table: PlacedSprocketTable, count: int) -> DriveWheel:
-    teeth = max(table.cog, key=lambda cog: cog.share_of_time).teeth if table.cog else table.teeth
-    assert teeth is not None
+    teeth = max(table.cog, key=lambda cog: cog.share_of_time).teeth if table.cog else table.teeth or 0
     name = wheel_name(table.name, table.role, number, count)
     return DriveWheel(name, table.role or _usual_role(number), teeth, table)
 
@@ -138,6 +142,10 @@ def _check_together(wheels: Sequence[DriveWheel], faults: Faults) -> None:
     cassettes = [number for number, wheel in enumerate(wheels, start=1) if wheel.cogs]
     if len(cassettes) > 1:
         faults.add(f"sprocket.{cassettes[1]}.cog", "one sprocket can have cogs: remove those of the other")
+    smooth = [number for number, wheel in enumerate(wheels, start=1) if not wheel.parts]
+    if cassettes and smooth:
+        text = "a drive with cogs cannot have a smooth idler yet: give the idler teeth"
+        faults.add(f"sprocket.{smooth[0]}.smooth_diameter_mm", text)
 
 
 def _check_names(wheels: Sequence[DriveWheel], faults: Faults) -> None:
@@ -260,5 +268,6 @@ def place_of(wheels: Sequence[DriveWheel], shares: tuple[float, ...], number: in
     for wheel in wheels:
         assert wheel.table.position_mm is not None
         x, y = wheel.table.position_mm
-        in_loop.append(Wheel(wheel.name, (x, y), wheel.rollers, bool(wheel.table.outside)))
+        radius = 0.5 * (wheel.table.smooth_diameter_mm or 0.0)
+        in_loop.append(Wheel(wheel.name, (x, y), wheel.rollers, bool(wheel.table.outside), radius))
     return PlaceInLoop(tuple(in_loop), shares, number, *next(take_ups, ()))

@@ -11,7 +11,7 @@ from wearsim.chain.rating_findings import rating_warnings
 from wearsim.contact.resting_engagement import NEW_MATE, MateWear, RestingContact
 from wearsim.contact.stop_limits import StopLimit
 from wearsim.drive.history import common_history
-from wearsim.drive.lubricant import lasting_warning, late_relubrication, with_knees
+from wearsim.drive.lubricant import dry_warning, lasting_warning, late_relubrication, with_knees
 from wearsim.drive.wear_task import (
     WearTask,
     clock_assumptions,
@@ -21,6 +21,7 @@ from wearsim.drive.wear_task import (
     wear_law,
 )
 from wearsim.geometry.profile_points import Vector, area_between
+from wearsim.lubrication.model import DIRT
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
@@ -79,7 +80,9 @@ def simulate_wrap(case: Case, progress: Callable[[float], None] = lambda part: N
     history = with_knees(history, constant, law.mates, contact.elongation_per_cycle, case.cycles_per_hour)
     parts = {"chain": chain, "sprocket": sprocket}
     warnings += late_relubrication(case, clock.lubricant, parts)
-    warnings += lasting_warning(case, joint_clock(case, contact), "chain", chain)
+    warnings += dry_warning(case, clock)
+    is_given = drive.wear_band(ended, case.wear).is_given
+    warnings += lasting_warning(case, _clock_of(case, ended, contact, clock), ended, life, is_given)
     parts |= _fatigue(case, contact, law, (life, sprocket), warnings)
     deepest = int(run.depth[-1].argmax())
     return WearResult(
@@ -150,13 +153,27 @@ def chain_band(case: Case) -> WearBand:
     band = case.drive.wear_band("chain", case.wear)
     contact = wrap_of(case).contact(case)
     clock = joint_clock(case, contact)
-    ends = clock.factors(contact.cycles_per_mate, band.low, band.high, band.of_condition)
-    return WearBand(*ends, _band_source(case, "chain", clock), band.of_condition)
+    ends = clock.factors(contact.cycles_per_mate, band.low, band.high, band.is_given)
+    return WearBand(*ends, _band_source(case, "chain", clock), band.is_given)
+
+
+def chain_prior(case: Case) -> tuple[float, float]:
+    """Return the ends of the rate of a chain before it was read: that of its joints, wider by dirt only.
+
+    How long the lubricant lasts and what dry contacts wear follow the clock of the case.
+    """
+    band = case.drive.wear_band("chain", case.wear)
+    contact = wrap_of(case).contact(case)
+    clock = joint_clock(case, contact)
+    of_dirt = tuple(ends for ends in clock.ends if ends.unsure == DIRT)
+    return replace(clock, unsure=lambda: of_dirt).factors(
+        contact.cycles_per_mate, band.low, band.high, band.is_given
+    )
 
 
 def _band_source(case: Case, part: str, clock: LubricatedClock) -> str:
     band = case.drive.wear_band(part, case.wear)
-    return clock.band_source(band.source, band.of_condition)
+    return clock.band_source(band.source, band.is_given)
 
 
 def chain_clock(case: Case) -> LubricatedClock:
@@ -248,7 +265,7 @@ def _band(
 ) -> tuple[Life | LowerBound, Life | LowerBound]:
     band = case.drive.wear_band(part, case.wear)
     steady = clock.steady_cycles(life.cycles_run)
-    low, high = clock.factors(steady, band.low, band.high, band.of_condition)
+    low, high = clock.factors(steady, band.low, band.high, band.is_given)
     return _scaled(life, high, case, clock), _scaled(life, low, case, clock)
 
 

@@ -3,8 +3,6 @@
 import copy
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from numbers import Integral, Real
-from pathlib import PurePath
 from typing import Any
 
 from wearsim.errors import CaseError, Fault
@@ -12,6 +10,7 @@ from wearsim.input.column_files import COLUMN_KEYS, column_file, is_columns
 from wearsim.input.document import GivenInput
 from wearsim.input.keys import schema_of, tables_in
 from wearsim.input.table import Table, is_number, without_numbers
+from wearsim.input.units import plain_value
 
 _CHANGED = ", changed by with_"
 
@@ -48,19 +47,6 @@ def _flat(changes: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, A
             yield from _flat(value, f"{whole}.")
         else:
             yield whole, plain_value(value)
-
-
-def plain_value(value: Any) -> Any:
-    """Return a value as TOML would hold it: no numbers or arrays of numpy, no tuples, ranges or paths."""
-    if hasattr(value, "tolist"):
-        return value.tolist()
-    if isinstance(value, list | tuple | range):
-        return [plain_value(entry) for entry in value]
-    if isinstance(value, PurePath):
-        return str(value)
-    if isinstance(value, bool) or not isinstance(value, Real):
-        return value
-    return int(value) if isinstance(value, Integral) else float(value)
 
 
 def _gives_way(tables: Mapping[str, Any], key: str, value: Any) -> Iterator[str]:

@@ -17,6 +17,7 @@ from wearsim.errors import CaseError, Fault
 from wearsim.input.column_files import with_column_files
 from wearsim.input.faults import Faults
 from wearsim.input.table import CalculationTables, Table
+from wearsim.input.units import plain_tables
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,7 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
 
 def _given(source: str | Path | CaseText | Mapping[str, Any]) -> GivenInput:
     if isinstance(source, Mapping):
-        tables = with_column_files(source)
+        tables = plain_tables(with_column_files(source))
         _check_depth(tables, "case")
         data = copy.deepcopy(tables)
         return GivenInput("case", "case", Path(), "", data, data)

@@ -2,7 +2,10 @@
 
 import math
 import re
+from collections.abc import Mapping
 from functools import cache
+from numbers import Integral, Real
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema
@@ -155,3 +158,36 @@ Series = Annotated[
 
 Number = Annotated[float, BeforeValidator(_number), WithJsonSchema(_schema(False))]
 """A number without a unit."""
+
+
+def plain_value(value: Any) -> Any:
+    """Return a value as TOML would hold it: no numbers or arrays of numpy, no tuples, ranges or paths."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, list | tuple | range):
+        return [plain_value(entry) for entry in value]
+    if isinstance(value, PurePath):
+        return str(value)
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return value
+    return int(value) if isinstance(value, Integral) else float(value)
+
+
+def plain_tables(tables: Mapping[str, Any]) -> dict[str, Any]:
+    """Return tables with all values as TOML would hold them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> plain_tables({"sprocket": [{"teeth": np.int64(17)}]})
+    {'sprocket': [{'teeth': 17}]}
+    """
+
+    def plain(value: Any) -> Any:
+        if isinstance(value, Mapping):
+            return plain_tables(value)
+        if isinstance(value, list | tuple):
+            return [plain(entry) for entry in value]
+        return plain_value(value)
+
+    return {name: plain(value) for name, value in tables.items()}

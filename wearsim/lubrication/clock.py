@@ -391,7 +391,9 @@ def band_of_causes(middle: float, ends: Iterable[tuple[float, float]]) -> tuple[
     >>> round(100.0 / low, 4), round(high, 4)  # 2^sqrt(1 + 4), 2^1
     (4.7111, 200.0)
     """
+    # The better end of a cause may be the shorter life, as where it is relubricated less often.
+    spans = [(min(middle, *lives), max(middle, *lives)) for lives in ends]
     low, high = (
-        math.sqrt(math.fsum(math.log(end / middle) ** 2 for end in side)) for side in zip(*ends, strict=True)
+        math.sqrt(math.fsum(math.log(end / middle) ** 2 for end in side)) for side in zip(*spans, strict=True)
     )
     return middle * math.exp(-low), middle * math.exp(high)

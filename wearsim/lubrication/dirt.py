@@ -54,9 +54,10 @@ def read_dirt(
         return Dirt(0.0, ageing)
     low, high = row.low, row.high
     band = whole.contamination_band_factor
-    if band is None and given["contamination_factor"] is not None:
+    if band is None and factor != row.factor:
         band = _USUAL_BAND
-        case.take("lubrication.contamination_band_factor", band, "the factor of dirt is the user's")
+        text = f"{place}.contamination_factor is the user's, known to a factor of {band:g} to either side"
+        case.assumptions.append(text)
     if band is not None:
         low, high = max(factor / band, 1.0), factor * band
     return Dirt(factor - 1.0, ageing, (low - 1.0, high - 1.0))

@@ -62,7 +62,7 @@ def _with_own_condition(sprocket: Any, row: Lubricant) -> Any:
 
 def _with_condition(wear: Any, row: Lubricant) -> Any:
     """Return a table of wear with the condition of a lubricant on its teeth, unless it gives a rate."""
-    if not isinstance(wear, dict) or any(key in wear for key in RATES):
+    if not isinstance(wear, dict) or any(key in wear for key in RATES if wear.get(key) != "archard"):
         return wear
     hardness = wear.get("tooth_hardness", HARDNESSES[0])
     condition = condition_of_teeth(row, hardness) if hardness in HARDNESSES else row.wear_condition

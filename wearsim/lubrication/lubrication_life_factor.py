@@ -45,11 +45,13 @@ def lubrication_state(supplied: str, recommended: str, environment: str = "clean
     below = TYPES.index(recommended) - (-1 if supplied in _SCANT else TYPES.index(supplied))
     if environment in ("wet", "mud", "soil"):
         return "insufficient, dirty"
-    dusty = environment == "dust"
-    if below > 1 or (dusty and below == 1):
+    if environment == "dust":
+        # As one type less; the best of them is no better than what is recommended without dust.
+        below = max(below + 1, 0)
+    if below > 1:
         return "insufficient"
-    if below == 1 or dusty:
-        return "manual" if supplied in _SCANT else "one type below"
+    if below == 1:
+        return "now and then" if supplied in _SCANT else "one type below"
     return "as recommended" if below == 0 else "better than recommended"
 
 

@@ -34,7 +34,7 @@ class PhaseInput:
     contaminations: int  # spread evenly, in the middle of equal parts; none where dirt comes all the time
 
 
-LASTING = "how long the lubricant lasts"
+LASTING, DIRT = "how long the lubricant lasts", "dirt"
 
 
 class LubricationEnds(NamedTuple):
@@ -47,6 +47,9 @@ class LubricationEnds(NamedTuple):
 
 
 _SURE = (1.0, 1.0)
+
+_BELOW = 0.999
+"""Part of what a factor at which contacts are relubricated is above 1 that dirt may add."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +102,7 @@ class LubricationInput:
         causes = (
             (LASTING, "lasts_band_factor", lasts),
             ("the wear without lubricant", "dry_band_factor", dry),
-            ("dirt", "contamination_band_factor", dirt),
+            (DIRT, "contamination_band_factor", dirt),
         )
         return tuple(
             LubricationEnds(what, key in self.stated, *ends)
@@ -109,7 +112,15 @@ class LubricationInput:
 
     def _in_dirt(self, end: int) -> "LubricationInput":
         phases = tuple(replace(phase, dirt=phase.dirt.at_end(end)) for phase in self.phases)
-        return replace(self, dirt=self.dirt.at_end(end), phases=phases)
+        dirt = self.dirt.at_end(end)
+        # Dirt alone must not ask for relubrication, which does not help then.
+        most = _BELOW * (self.threshold - 1.0)
+        return replace(self, dirt=replace(dirt, excess=min(dirt.excess, most)), phases=phases)
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether the wear coefficients do not change with time, whatever dirt multiplies them by."""
+        return self.lasts is ENDLESS and not self.phases
 
     @property
     def steady(self) -> bool:

@@ -4,9 +4,9 @@ from typing import Literal
 
 from pydantic import ValidationError
 
-from wearsim.catalogue.catalogues import Lubricant, lubricants, nearest, wear_conditions
-from wearsim.input.changes import plain_value
+from wearsim.catalogue.catalogues import Lubricant, condition_name, lubricants, nearest, wear_conditions
 from wearsim.input.faults import Faults
+from wearsim.input.units import plain_value
 from wearsim.lubrication.keys import LubricationTable
 
 _SUPPLIES = ("applied", "continuous", "none")
@@ -77,6 +77,7 @@ def lubricant(
         "contamination_removed": plain_value(contamination_removed),
     }
     faults = Faults(f"lubricant {name!r}", "", ())
+    wear_condition = condition_name(wear_condition)
     _check_words(faults, name, wear_condition, supply, source)
     try:
         table = LubricationTable.model_validate({key: at for key, at in numbers.items() if at is not None})
@@ -106,7 +107,8 @@ def _check_words(faults: Faults, name: str, wear_condition: str, supply: str, so
         faults.add("name", f"must be a name that the catalogue does not have (got {name!r})")
     if wear_condition not in wear_conditions():
         hint = nearest(wear_condition, dict(wear_conditions()))
-        faults.add("wear_condition", f"no such wear condition{hint} (wearsim list wear-conditions)")
+        text = f"no such wear condition{hint} (wearsim list wear-conditions) (got {wear_condition!r})"
+        faults.add("wear_condition", text)
     if supply not in _SUPPLIES:
         faults.add("supply", f"must be {', '.join(map(repr, _SUPPLIES))} (got {supply!r})")
     if not source.strip():

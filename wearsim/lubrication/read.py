@@ -3,7 +3,13 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from wearsim.catalogue.catalogues import Lubricant, lubricants, wear_conditions
+from wearsim.catalogue.catalogues import (
+    HARDNESSES,
+    Lubricant,
+    condition_of_teeth,
+    lubricants,
+    wear_conditions,
+)
 from wearsim.input.faults import CaseRecord
 from wearsim.lubrication.dirt import Dirt, read_dirt
 from wearsim.lubrication.keys import (
@@ -33,7 +39,11 @@ _BANDS = ("lasts_band_factor", "dry_band_factor", "contamination_band_factor")
 
 
 def lubrication_input(
-    case: CaseRecord, table: LubricationTable | None, km_per_hour: float | None, condition: str | None
+    case: CaseRecord,
+    table: LubricationTable | None,
+    km_per_hour: float | None,
+    condition: str | None,
+    hardness: str | None,
 ) -> LubricationInput | None:
     """Return how a case is lubricated; None where it says nothing about it."""
     if table is None:
@@ -41,18 +51,23 @@ def lubrication_input(
     row = lubricants()[table.lubricant] if table.lubricant else None
     reader = _Reader(case, table, row, km_per_hour)
     if row is not None:
-        _say_coefficients(case, row, condition)
+        _say_coefficients(case, row, condition, hardness or HARDNESSES[0])
+        if row.supply == "none" and table.environment == "soil":
+            case.warnings.append(
+                "lubrication.environment = 'soil' multiplies the wear of oiled contacts, and beside dry ones "
+                "counts the missing oil twice: give wear.condition = 'soil-contaminated' alone"
+            )
         if row.is_own:
             case.assumptions.append(f"lubricant {row.lubricant!r} is the user's: {row.source}")
     return reader.input()
 
 
-def _say_coefficients(case: CaseRecord, row: Lubricant, condition: str | None) -> None:
+def _say_coefficients(case: CaseRecord, row: Lubricant, condition: str | None, hardness: str) -> None:
     """Say whose coefficients hold where they are not those of the lubricant."""
     if condition is None:
         case.assumptions.append(f"the wear rates are the user's, not those of lubricant {row.lubricant!r}")
         return
-    if condition == row.wear_condition:
+    if condition == condition_of_teeth(row, hardness):
         return
     is_oiled, as_named = (wear_conditions()[name].lubricated for name in (condition, row.wear_condition))
     if is_oiled == as_named:
@@ -208,15 +223,16 @@ class _Reader:
 
     def _lasts_ends(self) -> tuple[float, float]:
         """Return the ends of how long it lasts, over that: the user's, those of the row, or usual ones."""
-        own, row = self._given(LASTS) is not None, self.row
+        row, key = self.row, self._given(LASTS)
         typical, ends = (None, None) if row is None else (row.lasts, row.lasts_ends)
-        return self._ends("lasts_band_factor", None if own else typical, ends, _LASTS_BAND, _WHY_LASTS)
+        as_row = key is None or (key, getattr(self.table, key)) == ("lasts_sliding_m", typical)
+        return self._ends("lasts_band_factor", typical if as_row else None, ends, _LASTS_BAND, _WHY_LASTS)
 
     def _dry_ends(self, dry_factor: float) -> tuple[float, float]:
         """Return the ends of the dry factor, over it: the user's, those of the row, or usual ones."""
-        own, row = self.table.dry_factor is not None, self.row
+        row = self.row
         ends = None if row is None else row.dry_ends
-        typical = None if own else dry_factor
+        typical = dry_factor if row is not None and dry_factor == row.dry_factor else None
         return self._ends("dry_band_factor", typical, ends, _DRY_BAND, "the dry factor is the user's")
 
     def _ends(
@@ -227,7 +243,7 @@ class _Reader:
             return ends[0] / typical, ends[1] / typical
         if band is None:
             band = usual
-            self.case.take(f"lubrication.{key}", band, why)
+            self.case.assumptions.append(f"lubrication.{key}: a factor of {band:g} to either side, {why}")
         return 1.0 / band, band
 
     def _running(self, key: str, value: float) -> RunningWay:

@@ -299,8 +299,13 @@ def taken_inputs(drive: DriveCase) -> dict[str, Any]:
     cases = {
         wheel.name: one.case for one, wheel in zip(drive.sprockets, wheel_of(drive).values(), strict=True)
     }
+    given = zip(drive.wheels, drive.inputs["sprocket"], strict=True)
     sprockets = [
-        {**cases[wheel.name].inputs["sprocket"], "name": wheel.name, "role": wheel.role}
-        for wheel in drive.wheels
+        {
+            **(cases[wheel.name].inputs["sprocket"] if wheel.parts else table),
+            "name": wheel.name,
+            "role": wheel.role,
+        }
+        for wheel, table in given
     ]
     return {**drive.driver.case.inputs, "title": drive.title, "sprocket": sprockets}

@@ -9,7 +9,7 @@ import numpy as np
 
 from wearsim.case.model import Case, WearBand
 from wearsim.drive.drive_case import DriveCase
-from wearsim.drive.wrap_life import chain_band, chain_clock, wrap_of
+from wearsim.drive.wrap_life import chain_band, chain_clock, chain_prior, wrap_of
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.drive import instead_of
@@ -122,7 +122,7 @@ def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainSta
     rate = limit / cycles_per_chain
     expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
     band = chain_band(as_logged)
-    posterior = factor_posterior(log.readings, expected, FactorPrior(band.low, band.high))
+    posterior = factor_posterior(log.readings, expected, FactorPrior(*chain_prior(as_logged)))
     factors = np.array(posterior.quantiles)
     lives = tuple((clock.running_cycles(cycles_per_chain / factors[::-1]) / per_hour).tolist())
     excluding = contradictions(

@@ -23,7 +23,7 @@ _LOADS = {"power_kW": "kW", "torque_N_m": "N m", "tension_N": "N of tension"}
 """Units of the keys of which one gives a load."""
 
 _TYPES = {
-    "drip": "manual or drip (type A of ANSI B29.1)",
+    "drip": "drip, or by hand every 8 hours (type A of ANSI B29.1)",
     "oil bath": "oil bath or disc (type B of ANSI B29.1)",
     "forced": "oil stream (type C of ANSI B29.1)",
 }

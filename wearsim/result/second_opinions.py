@@ -102,8 +102,9 @@ def _lubrication(drive: "PracticeDrive") -> str:
     found = drive.lubrication_factor
     if not drive.lubrication or found.factor == 1.0:
         return ""
+    there = "" if drive.environment == "clean" else f" in {drive.environment}"
     return (
-        f"lubrication {drive.lubrication!r}, where {drive.recommended!r} is recommended at "
+        f"lubrication {drive.lubrication!r}{there}, where {drive.recommended!r} is recommended at "
         f"{drive.chain_speed:.3g} m/s and {drive.pitch:g} mm pitch: published rules give {found.factor:g} "
         f"times the life ({found.low:g} to {found.high:g})"
     )

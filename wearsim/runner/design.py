@@ -159,8 +159,10 @@ def value_in(case: Case | DriveCase, key: str) -> Any:
         return value_at(case.chain_case.inputs, key)
     if not is_number(number) or not 0 < int(number) <= len(case.wheels):
         return None
-    (first, *_) = case.wheels[int(number) - 1].parts
-    return value_at(case.single_cases[first].inputs, f"sprocket.{name}")
+    wheel = case.wheels[int(number) - 1]
+    if not wheel.parts:
+        return value_at(case.inputs["sprocket"][int(number) - 1], name)
+    return value_at(case.single_cases[wheel.parts[0]].inputs, f"sprocket.{name}")
 
 
 def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]], file: str) -> Design:

@@ -34,7 +34,7 @@ def scaled_percentiles(result: WearResult, case: Case, shares: tuple[float, ...]
 
 def check_steady_lubricant(case: Case, command: str, instead: str) -> None:
     """Raise where the wear coefficient of a case changes with its lubricant, and say what works instead."""
-    if case.lubrication is not None and not case.lubrication.steady:
+    if case.lubrication is not None and not case.lubrication.is_constant:
         message = (
             f"{command!r} scales lives, which holds for a constant coefficient only: remove this table, or "
             f"{instead}"

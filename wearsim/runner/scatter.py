@@ -112,13 +112,14 @@ def _coefficients(case: Case) -> dict[str, tuple[float, WearBand]]:
 def _of_lubricant(case: Case) -> Iterator[tuple[str, Distribution, str]]:
     """Give keys of the lubricant that are not known exactly, how they scatter, and that in words.
 
-    Beside a coefficient that the user gives for the drive only those of which the case says how surely they
-    are known, as the band of that coefficient holds the others.
+    Beside a band that the user gives of the drive only those of which the case says how surely they are
+    known, as that band holds the others.
     """
     given, table = case.lubrication, case.inputs.get("lubrication") or {}
     if given is None:
         return
-    of_condition = any(case.drive.wear_band(part, case.wear).of_condition for part in ("sprocket", "chain"))
+    part = "chain" if case.drive.wear_coefficients else "sprocket"
+    is_given = case.drive.wear_band(part, case.wear).is_given
     lasts = next((key for key in LASTS if key in table), "")
     dirt = given.dirt.ends and tuple((1.0 + end) / (1.0 + given.dirt.excess) for end in given.dirt.ends)
     found = (
@@ -127,7 +128,7 @@ def _of_lubricant(case: Case) -> Iterator[tuple[str, Distribution, str]]:
         ("contamination_factor", "contamination_band_factor", dirt, 1.0),
     )
     for key, band, ends, least in found:
-        if key not in table or not ends or ends == (1.0, 1.0) or not (of_condition or band in given.stated):
+        if key not in table or not ends or ends == (1.0, 1.0) or (is_given and band not in given.stated):
             continue
         value, (low, high) = table[key], ends
         scatter = _banded(value, WearBand(low, high, "")).model_copy(update={"low": least})
@@ -166,9 +167,12 @@ def plain_document(document: Document, case: Case) -> Document:
     """Return a case in which every value stands that a study changes."""
     data = {name: table for name, table in document.data.items() if name != "uncertainty"}
     if "condition" in case.inputs["wear"]:
-        if not case.drive.wear_coefficients:
-            wear = {name: value for name, value in data.get("wear", {}).items() if name != "condition"}
-            data = {**data, "wear": wear}
+        told = ("condition", "tooth_hardness")
+        wear = {name: value for name, value in data.get("wear", {}).items() if name not in told}
+        if case.drive.wear_coefficients:
+            # The law of its teeth is that of the condition.
+            wear["condition"] = case.inputs["wear"]["condition"]
+        data = {**data, "wear": wear}
         data = replaced(data, coefficient_key(case).split("."), case.wear.coefficient)
     for key, setting in {**case.drive.wear_coefficients, **case.drive.wear_settings}.items():
         data = replaced(data, key.split("."), setting)

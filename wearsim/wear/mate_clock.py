@@ -58,14 +58,14 @@ class LubricatedClock(WearClock):
         lubricated = self.part.running_cycles(constant)
         return lubricated if self.lubricant is FRESH else self.lubricant.running_cycles(lubricated)
 
-    def ends_beside(self, of_condition: bool) -> tuple[ClockEnds, ...]:
+    def ends_beside(self, is_given: bool) -> tuple[ClockEnds, ...]:
         """Return what a band of the coefficient leaves out.
 
         One that the user gives for the drive holds all but what the case says of the lubricant itself.
         """
-        return tuple(ends for ends in self.ends if of_condition or ends.stated)
+        return tuple(ends for ends in self.ends if not is_given or ends.stated)
 
-    def factors(self, constant: float, low: float, high: float, of_condition: bool) -> tuple[float, float]:
+    def factors(self, constant: float, low: float, high: float, is_given: bool) -> tuple[float, float]:
         """Return the ends of a band of the coefficient, wider by what is not known of the lubricant.
 
         Each end is the factor on the wear that leads to the end of a life: causes are independent, so the
@@ -79,15 +79,16 @@ class LubricatedClock(WearClock):
             Cycles of constant coefficient that the life takes.
         low, high : float
             Ends of the coefficient over that of the case.
-        of_condition : bool
-            Whether these are ends of a wear condition, not the user's for this drive.
+        is_given : bool
+            Whether the user says these ends of this drive, so that they hold what is not known of its
+            lubricant.
 
         Returns
         -------
         tuple of float
             Ends of the factor on the wear.
         """
-        beside = self.ends_beside(of_condition)
+        beside = self.ends_beside(is_given)
         if not beside or not 0.0 < constant < math.inf:
             return low, high
         causes = [(self.run_by(ends.worse, constant), self.run_by(ends.better, constant)) for ends in beside]
@@ -100,9 +101,9 @@ class LubricatedClock(WearClock):
         lubricated = self.part.running_cycles(np.array([constant]))
         return float(lubricant.running_cycles(lubricated)[0])
 
-    def band_source(self, of_coefficient: str, of_condition: bool) -> str:
+    def band_source(self, of_coefficient: str, is_given: bool) -> str:
         """Return in words what a band comes from, that of the coefficient and that of the lubricant."""
-        return "; ".join([of_coefficient, *(ends.unsure for ends in self.ends_beside(of_condition))])
+        return "; ".join([of_coefficient, *(ends.unsure for ends in self.ends_beside(is_given))])
 
 
 @dataclass(frozen=True, eq=False)

@@ -319,6 +319,7 @@ class PlaceTable(Table):
     price: PositiveNumber | None = None
     wear: WearTable | None = None
     material: MaterialTable | None = None
+    smooth_diameter_mm: Annotated[Positive, Field(le=1e5)] | None = None
 
     @classmethod
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
@@ -345,6 +346,10 @@ class PlaceTable(Table):
         return found
 
 
+_OF_A_SMOOTH_WHEEL = frozenset({"name", "role", "position_mm", "outside", "take_up", "smooth_diameter_mm"})
+"""Keys of a wheel without teeth."""
+
+
 def _teeth(value: object) -> object:
     if type(value) is not int or value < 5:
         raise ValueError("must be a whole number of at least 5")
@@ -356,6 +361,7 @@ class PlacedSprocketTable(SprocketTable, PlaceTable):
 
     role: Literal["driver", "driven", "idler"] | None = None  # type: ignore[assignment]
     teeth: Annotated[int, Field(ge=5, le=1000), BeforeValidator(_teeth)] | None = None  # type: ignore[assignment]
+    profile: _Profile | None = None  # type: ignore[assignment]
 
     @classmethod
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
@@ -364,12 +370,27 @@ class PlacedSprocketTable(SprocketTable, PlaceTable):
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
-        found = [*PlaceTable.conflicts(self), *SprocketTable.conflicts(self)]
+        if self.smooth_diameter_mm is not None:
+            return [*PlaceTable.conflicts(self), *self._smooth_faults()]
+        found = PlaceTable.conflicts(self)
+        if self.profile is None:
+            found.append(("profile", "this key is required and missing"))
+        else:
+            found += SprocketTable.conflicts(self)
         if self.cog and self.teeth is not None:
             found.append(("teeth", "the cogs give their own: remove one of both"))
         if not self.cog and self.teeth is None:
             found.append(("teeth", "this key is required and missing"))
         return found
+
+    def _smooth_faults(self) -> list[tuple[str, str]]:
+        """Return what is wrong with a wheel without teeth."""
+        found = []
+        if self.role != "idler":
+            found.append(("role", "a smooth wheel takes no power: must be 'idler'"))
+        given = (key for key in type(self).model_fields if key in self.model_fields_set)
+        text = "a smooth idler has no teeth: remove this, or smooth_diameter_mm"
+        return [*found, *((key, text) for key in given if key not in _OF_A_SMOOTH_WHEEL)]
 
     def alone(self, **taken: int | str) -> SprocketTable:
         """Return the table of this sprocket where it is the only one of a case, with values of some keys."""

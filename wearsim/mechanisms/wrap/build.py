@@ -132,7 +132,7 @@ def _joint_friction(case: ChainRecord) -> float | None:
     return given
 
 
-def _mates(layout: DriveLayout | LoopLayout, driver: bool) -> tuple[int, ...]:
+def _mates(layout: DriveLayout | LoopLayout, driver: bool) -> tuple[float, ...]:
     if isinstance(layout, LoopLayout):
         return layout.mates
     return (layout.teeth_2 if driver else layout.teeth_1,)

@@ -546,7 +546,7 @@ def supply_in_words(case: Case) -> tuple[str, str]:
     of_joints = (case.inputs.get("joint") or {}).get("condition")
     condition = of_joints or case.inputs["wear"].get("condition", "")
     named = lubrication.get("lubricant")
-    supplied = named if named in LUBRICATIONS else _SUPPLY.get(condition, "")
+    supplied = _SUPPLY.get(condition, "") if named is None else named if named in LUBRICATIONS else ""
     soil = condition == "soil-contaminated" or lubrication.get("environment") == "soil"
     return supplied, "mud" if soil else lubrication.get("environment", "clean")
 

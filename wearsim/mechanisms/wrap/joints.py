@@ -149,23 +149,25 @@ def _usual_elongation(case: ChainRecord, layout: DriveLayout | LoopLayout) -> fl
 def _band(case: ChainRecord, law: JointLaw, state: JointState) -> WearBand:
     """Return the band of the rate: of a user's what the user says of it, else of its condition there."""
     table, condition = _table(case), _condition(case)
-    given = table.specific_wear_rate_mm2_per_N
-    if given is None:
-        _say_law(case, law, condition, state)
-    else:
+    # The numbers of the condition itself, as a lock file writes them, are not the user's.
+    is_own = table.specific_wear_rate_mm2_per_N is not None and law != joint_law(condition)
+    if is_own:
         _say_own_law(case, law, condition, state)
-    if table.band_factor is not None or given is not None:
+    else:
+        _say_law(case, law, condition, state)
+    if table.band_factor is not None or is_own:
         factor = table.band_factor or DEFAULT_BAND
         if table.band_factor is None:
             case.take("joint.band_factor", factor, "the rate of the joints is the user's")
         band = JointBand(1.0 / factor, factor, f"joints: factor {factor:g} to either side")
         # A factor beside a rate is one of where it was found, beside a condition one of here.
-        found_elsewhere = given is not None and not law.is_constant
-        return WearBand(*(extrapolated(band, law, state.held) if found_elsewhere else band))
+        found_elsewhere = is_own and not law.is_constant
+        at_ends = extrapolated(band, law, state.held) if found_elsewhere else band
+        return WearBand(*at_ends, is_given=table.band_factor is not None)
     known = _named(case) is not None
     lubrication = case.tables.lubrication
     surroundings_known = lubrication is not None and lubrication.environment is not None
-    return WearBand(*joint_band(law, condition, state, known, surroundings_known), of_condition=True)
+    return WearBand(*joint_band(law, condition, state, known, surroundings_known))
 
 
 def _tooth_band(case: ChainRecord, law: JointLaw, state: JointState, wear: WearInput) -> WearBand:
@@ -173,15 +175,15 @@ def _tooth_band(case: ChainRecord, law: JointLaw, state: JointState, wear: WearI
 
     A rate of their own was read where that of the joints was.
     """
-    band = WearBand(wear.low, wear.high, wear.band, wear.of_condition)
+    band = WearBand(wear.low, wear.high, wear.band, wear.band_is_given)
     table, of_teeth = case.tables.wear, _tooth_law(case, law)
     if of_teeth is None:
         return band
     if table.specific_wear_rate_mm2_per_N is not None:
-        return WearBand(*extrapolated(JointBand(*band[:3]), law, state.held))
+        return WearBand(*extrapolated(JointBand(*band[:3]), law, state.held), is_given=band.is_given)
     if table.band_factor:
         return band
-    return WearBand(*extrapolated(JointBand(*band[:3]), of_teeth, state), of_condition=True)
+    return WearBand(*extrapolated(JointBand(*band[:3]), of_teeth, state))
 
 
 def _say_law(case: ChainRecord, law: JointLaw, condition: WearCondition, state: JointState) -> None:

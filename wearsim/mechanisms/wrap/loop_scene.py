@@ -59,7 +59,8 @@ def loop_scene(forces: LoopForces, roller_radius: float, worn: Sequence[Shape] =
     circles = [_circle(centre, tip) for centre, tip in zip(centres, tips.tolist(), strict=True)]
     free = FreePlaces([np.vstack([path, path[:1]]), *circles, *arrows], 0.3 * text, 0.3 * text)
     for i, (wheel, centre) in enumerate(zip(loop.wheels, centres, strict=True)):
-        name, outer = f"{wheel.name}, {wheel.teeth}", max(float(tips[i]), _riding(loop, i, roller_radius))
+        name = f"{wheel.name}, {wheel.teeth}" if wheel.teeth else wheel.name
+        outer = max(float(tips[i]), _riding(loop, i, roller_radius))
         size = label_box(name, centre, text)
         shapes.append(free.set(name, around_circle(centre, outer, size, 0.5 * text), text))
     for i in range(len(centres)):
@@ -106,7 +107,10 @@ def chain_path(loop: ChainLoop) -> Vector:
 
 
 def _alt(loop: ChainLoop) -> str:
-    wheels = ", ".join(f"{wheel.name} of {wheel.teeth} teeth" for wheel in loop.wheels)
+    wheels = ", ".join(
+        f"{wheel.name} of {wheel.teeth} teeth" if wheel.teeth else f"{wheel.name}, smooth"
+        for wheel in loop.wheels
+    )
     return f"{len(loop.wheels)} sprockets to scale with the chain around them: {wheels}."
 
 

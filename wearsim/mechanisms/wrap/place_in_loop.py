@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 from wearsim.case.chain_record import ChainRecord
@@ -65,7 +66,7 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
     if case.faults.count > before:
         return None
     try:
-        loop = _loop(chain.pitch, place.wheels)
+        loop = _loop(chain, place.wheels)
         drive = LoopDrive(loop, place.shares, _take_up(case, loop, place), place.force)
         layout = seen_from(loop_layout(drive, table.links), place.wheel)
     except (CaseError, GeometryError) as error:
@@ -77,6 +78,12 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
         case.take("drive.links", layout.links, "the even number that fits the sprockets as they stand")
     if len(place.wheels) == 2:
         case.assumptions.append(_sense_of_two(place))
+    case.assumptions += [
+        f"{wheel.name!r} is smooth: rollers run on it, {links:.4g} links would lie round it, its joints turn "
+        "as on a sprocket of so many teeth; neither its wear nor that of the rollers on it is calculated"
+        for wheel, links in zip(loop.wheels, loop.teeth, strict=True)
+        if not wheel.teeth
+    ]
     if layout.links % 2:
         case.warnings.append(odd_links_warning(layout.links))
     if drive.take_up is not None:
@@ -93,16 +100,17 @@ def _key_of(text: str, wheels: Sequence[Wheel]) -> str:
     return f"{LOOP_KEY}.{named[1]}" if named else LOOP_KEY
 
 
-def _loop(pitch: float, wheels: tuple[Wheel, ...]) -> ChainLoop:
+def _loop(chain: Chain, wheels: tuple[Wheel, ...]) -> ChainLoop:
     """Return the loop in the sense in which it is one; the faults are those of the sense of its centres."""
     centres = [wheel.centre for wheel in wheels]
     turned = math.fsum(x * v - u * y for (x, y), (u, v) in pairwise([*centres, centres[0]]))
     clockwise = turned < 0.0
+    of = partial(ChainLoop, chain.pitch, wheels, roller_radius=0.5 * chain.roller_diameter)
     try:
-        return ChainLoop(pitch, wheels, clockwise=clockwise)
+        return of(clockwise=clockwise)
     except CaseError:
         try:
-            return ChainLoop(pitch, wheels, clockwise=not clockwise)
+            return of(clockwise=not clockwise)
         except CaseError:
             pass
         raise

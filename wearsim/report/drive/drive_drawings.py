@@ -45,6 +45,7 @@ def layout_sketch(drive: DriveCase) -> Markup:
         for name, (x, y), radius in zip(
             loop_names(drive), forces.loop.centres, forces.loop.pitch_radii, strict=True
         )
+        if name in of  # a smooth idler has no flank
     ]
     return sketch(loop_scene(forces, 0.5 * drive.driver.drive.chain.roller_diameter), links)
 

@@ -42,7 +42,8 @@ def layout_json(drive: DriveCase) -> dict[str, Any]:
         "sprockets": [
             {
                 "name": name,
-                "teeth": wheel.teeth,
+                "teeth": wheel.teeth or None,
+                **({"smooth_diameter_mm": 2.0 * wheel.radius} if wheel.radius else {}),
                 "x_mm": wheel.centre[0],
                 "y_mm": wheel.centre[1],
                 "wrap_deg": math.degrees(float(loop.wrap_angles[i])),
@@ -95,6 +96,10 @@ def loop_names(drive: DriveCase) -> list[str]:
     return [wheel.name for wheel in wheels]
 
 
+def _wheel_in_words(wheel: Mapping[str, Any]) -> str:
+    return f"{wheel['teeth']} teeth" if wheel["teeth"] else f"smooth, {wheel['smooth_diameter_mm']:.4g} mm"
+
+
 def layout_text(drive: DriveCase) -> str:
     """Return layout and forces of a drive in lines of text."""
     found = layout_json(drive)
@@ -103,7 +108,7 @@ def layout_text(drive: DriveCase) -> str:
         *(
             row(
                 one["name"],
-                f"{one['teeth']} teeth, wrap angle {one['wrap_deg']:.1f} degrees, "
+                f"{_wheel_in_words(one)}, wrap angle {one['wrap_deg']:.1f} degrees, "
                 f"{one['teeth_in_mesh']:.1f} in mesh; shaft {one['shaft_load_N']:.4g} N at "
                 f"{one['shaft_direction_deg']:.4g} degrees"
                 + (f", {abs(one['torque_N_m']):.4g} N m" if one["torque_N_m"] else ", idle"),

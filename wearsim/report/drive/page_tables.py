@@ -18,14 +18,14 @@ from wearsim.mechanisms.wrap.drive import PRESSURE_SPEED, JointInput
 from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column
 from wearsim.report.drive.drive_words import part_ending
-from wearsim.report.drive.layout import layout_json
+from wearsim.report.drive.layout import drive_forces, layout_json, loop_names
 from wearsim.result import Life
 from wearsim.result.lives import hours, service_measures
 
 
 def wheel_of(drive: DriveCase) -> dict[str, DriveWheel]:
     """Return of every sprocket the wheel that it is, or that it is a cog of."""
-    each = [wheel for wheel in drive.wheels for _ in wheel.cogs or (None,)]
+    each = [wheel for wheel in drive.wheels for _ in wheel.parts]
     return {one.name: wheel for one, wheel in zip(drive.sprockets, each, strict=True)}
 
 
@@ -113,11 +113,12 @@ def _take_up(layout: DriveLayout | LoopLayout, limit: float) -> list[tuple[str, 
 
 def shaft_table(drive: DriveCase) -> AnswerTable[dict[str, Any]]:
     """Return speed, torque, power and load of all shafts under the highest load."""
-    found = layout_json(drive)
+    found, loop = layout_json(drive), drive_forces(drive).loop
     speed = 6e4 * found["chain_speed_m_per_s"] / drive.driver.drive.layout.pitch
+    links_round = dict(zip(loop_names(drive), loop.teeth.tolist(), strict=True))
     columns: list[Column[dict[str, Any]]] = [
         Column("", itemgetter("name"), "shaft", side="<"),
-        Column("", lambda one: speed / one["teeth"], "speed, rpm", grouped),
+        Column("", lambda one: speed / links_round[one["name"]], "speed, rpm", grouped),
         Column("", itemgetter("torque_N_m"), "torque, N\u00a0m", grouped),
         Column("", itemgetter("power_kW"), "power, kW", grouped),
         Column("", itemgetter("shaft_load_N"), "load, N", grouped),

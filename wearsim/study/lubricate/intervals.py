@@ -45,7 +45,7 @@ class WornPart:
     # hours_low, hours_high: the same at the high and at the low end of the wear coefficients
     hours_low: float
     hours_high: float
-    of_condition: bool  # whether these are the ends of a wear condition, not the user's for the drive
+    is_given: bool  # whether the user says these ends of the drive
 
 
 class LubricantState(NamedTuple):
@@ -251,7 +251,7 @@ def _life_band(part: WornPart, clock: LubricantClock, ends: _AtEnds) -> tuple[fl
     causes += [
         (_life(worse, part.hours), _life(better, part.hours))
         for stated, worse, better in ends
-        if stated or part.of_condition
+        if stated or not part.is_given
     ]
     return band_of_causes(_life(clock, part.hours), causes)
 
@@ -262,6 +262,6 @@ def _wear_band(part: WornPart, wear: float, ends: _AtEnds) -> tuple[float, float
     causes += [
         (better.lasting_factor / part.hours, worse.lasting_factor / part.hours)
         for stated, worse, better in ends
-        if stated or part.of_condition
+        if stated or not part.is_given
     ]
     return band_of_causes(wear / part.hours, causes)

@@ -188,7 +188,7 @@ def _part(drive: LubricatedDrive, lubricant: LubricantClock, name: str) -> WornP
     clock, own_per_hour = drive.clocks[name]
     # Running-in and powers of the cycles: constant cycles times coefficient stay the same.
     constant = clock.steady_cycles(lubricated * own_per_hour)
-    low, high, _, of_condition = drive.bands[name]
+    low, high, _, is_given = drive.bands[name]
     ends = clock.running_cycles(np.array([constant / high, constant / low])) / own_per_hour
     return WornPart(
         name=name,
@@ -197,7 +197,7 @@ def _part(drive: LubricatedDrive, lubricant: LubricantClock, name: str) -> WornP
         price=drive.prices[name],
         hours_low=float(ends[0]),
         hours_high=float(ends[1]),
-        of_condition=of_condition,
+        is_given=is_given,
     )
 
 

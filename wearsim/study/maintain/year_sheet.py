@@ -9,10 +9,10 @@ from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column, in_currency
 from wearsim.report.text_lines import Finding, answer_text, closing, fenced
 from wearsim.study.maintain.from_readings import YearPlan
-from wearsim.study.maintain.year_plan import KEEP, Job, PartNow, used_percent
+from wearsim.study.maintain.year_plan import KEEP, RELUBRICATE, Job, PartNow, used_percent
 
 _MOST_ROWS = 20
-"""Jobs that the screen shows; files hold all."""
+"""Jobs that the screen shows, of relubrications the first ones; files hold all."""
 
 
 def year_text(plan: YearPlan, explain: bool = False) -> str:
@@ -22,7 +22,11 @@ def year_text(plan: YearPlan, explain: bool = False) -> str:
     shown = AnswerTable(table.columns, _shown(plan))
     more = len(plan.rows) - len(shown.rows)
     rows = [
-        *([Finding("More", f"{more} more jobs of the year: --out DIR writes them all")] if more else []),
+        *(
+            [Finding("More", f"{more} more relubrications in the year: --out DIR writes them all")]
+            if more
+            else []
+        ),
         Finding("In total", _total(plan)),
         *closing(plan.assumptions, plan.warnings, explain),
     ]
@@ -33,9 +37,11 @@ def year_text(plan: YearPlan, explain: bool = False) -> str:
 
 
 def _shown(plan: YearPlan) -> tuple[Job, ...]:
-    kept = [row for row in plan.rows if row.job == KEEP]
-    jobs = plan.jobs if len(plan.jobs) <= _MOST_ROWS else plan.jobs[:_MOST_ROWS]
-    return (*jobs, *kept)
+    """Return the rows of the screen: every replacement and kept part, and the first relubrications."""
+    relubricated = [row for row in plan.jobs if row.job == RELUBRICATE]
+    room = max(_MOST_ROWS - (len(plan.jobs) - len(relubricated)), 0)
+    left_out = {id(row) for row in relubricated[room:]}
+    return tuple(row for row in plan.rows if id(row) not in left_out)
 
 
 def _now(plan: YearPlan) -> str:

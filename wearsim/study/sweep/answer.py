@@ -11,9 +11,9 @@ import pandas as pd
 
 from wearsim.drive.case_input import CaseInput, given_input, loaded
 from wearsim.errors import check_ranges
-from wearsim.input.changes import changed, plain_value
+from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput
-from wearsim.input.units import in_unit_of
+from wearsim.input.units import in_unit_of, plain_value
 from wearsim.quantities import grouped
 from wearsim.report.public_answer import DrawnAnswer
 from wearsim.report.text_lines import counts_by_kind

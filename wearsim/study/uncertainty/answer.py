@@ -123,7 +123,7 @@ def uncertainty(
     Parameters
     ----------
     case : Case, DriveCase, path or mapping
-        The case; its table ``[uncertainty]`` tells what scatters, else the wear coefficient does by
+        The case; its table ``[uncertainty]`` tells what scatters, else wear coefficient and lubricant do by
         the published scatter.
     scatter : mapping, optional
         Distributions by dotted keys in place of that table, such as

@@ -97,9 +97,10 @@ def uncertainty_warnings(answer: UncertaintyAnswer) -> list[str]:
     found = []
     failed, count = len(answer.table) - len(answer.sound), len(answer.table)
     if failed:
+        first = next(text for text in answer.table["error"] if isinstance(text, str) and text)
         found.append(
             f"{failed} of {count} samples failed and are left out: the percentiles hold only for designs "
-            "that can run"
+            f"that can run. The first failed by: {first}"
         )
     if not all(one.known for one in answer.percentiles):
         found.append("percentiles beyond run.horizon_hours are only bounds: raise it")
