@@ -61,8 +61,8 @@ horizon_hours = 100
 
 SLOW_DRIVE = (
     DRIVE.replace("phases = 2", "phases = 8")
-    .replace("nodes = 51", "nodes = 601")
-    .replace("life_tolerance = 0.1\nhorizon_hours = 100", "life_tolerance = 0.001\nhorizon_hours = 300")
+    .replace("nodes = 51", "nodes = 201")
+    .replace("life_tolerance = 0.1\nhorizon_hours = 100", "life_tolerance = 0.001\nhorizon_hours = 1000")
 )
 """Takes longer than its estimate, so that it can be seen."""
 
