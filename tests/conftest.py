@@ -115,16 +115,3 @@ def leaves():
         return [name for name in names if not any(other.startswith(f"{name}.") for other in names)]
 
     return keys
-
-
-@pytest.fixture(scope="module")
-def catalogue_as_before():
-    """The catalogue without what a test adds to it: lubricants and wear laws of a program."""
-    from wearsim.catalogue.catalogues import lubricants, wear_laws
-    from wearsim.catalogue.own_wear_laws import _LAWS
-
-    yield
-    for name in [name for name, row in lubricants().items() if row.is_own]:
-        del lubricants()[name]
-    for name in list(_LAWS):
-        del _LAWS[name], wear_laws()[name]
