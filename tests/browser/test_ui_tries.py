@@ -186,7 +186,7 @@ def test_a_chain_is_chosen_from_a_list_and_half_of_its_name_is_no_fault(watched,
     chain.click()
     page.keyboard.press("Control+A")
     page.keyboard.type("ANSI 60")
-    page.get_by_role("option", name="12A-1 (ANSI 60").click()
+    page.get_by_role("option", name="12A-1 (ANSI 60, ANSI 60-1)").click()
     page.wait_for_selector(".q-menu", state="detached")
     eventually(lambda: 'designation = "12A-1"' in source(page), bool)
     settled(page)
