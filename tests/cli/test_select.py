@@ -313,6 +313,18 @@ def test_verified_lives_are_those_of_the_whole_drive(cli, tmp_path):
     assert "\n  Verified " in text
 
 
+def test_verified_drive_that_does_not_last(cli):
+    """Its chain lasts the hours, its normalised teeth do not: no answer to build by."""
+    need = ("select", "--power", 0.2, "--rpm", 100, "--ratio", 1, "--hours", 3000, "--lubrication", "dry")
+    teeth = ("--tooth-hardness", "normalised", "--teeth-min", 17, "--teeth-max", 17)
+    options = ("--series", "B", "--strands", 1, "--count", 1, "--centre", 1300)
+    assert cli(*need, *teeth, *options).code == 0
+    done = cli(*need, *teeth, *options, "--verify", 1)
+    assert done.code == 3
+    assert "NOT LONG ENOUGH" in done.out
+    assert "select: not long enough, or not worn: 084, 17 to 17 teeth" in done.err
+
+
 def test_completion_offers_words():
     from click.shell_completion import ShellComplete
 

@@ -201,3 +201,24 @@ def test_a_gost_table_informs_on_an_iso_chain(series, judges):
     assert not pressure.ok
     assert (pressure in overloading(findings), pressure in deciding(findings)) == (judges, judges)
     assert pressure.informs != judges
+
+
+@pytest.mark.parametrize(
+    ("lubricant", "hours", "factor"),
+    [("drip", None, 1.0), ("forced", None, 0.8), ("manual", None, 1.5), ("dry", 16.0, 1.5 * 1.25)],
+)
+def test_joint_factor_follows_lubricant_and_hours(lubricant, hours, factor):
+    """The GOST table: continuous 0.8, drip 1, periodic 1.5; two shifts 1.25."""
+    service = {} if hours is None else {"service": {"hours_per_day": hours}}
+    tables = {**WRAP, "wear": {}, "lubrication": {"lubricant": lubricant}, **service}
+    assert wearsim.load_case(tables).drive.joint_application_factor == pytest.approx(factor, rel=1e-14)
+
+
+def test_joint_factor_that_the_lubricant_exceeds():
+    """A factor that was right for drip oil, in a case whose lubricant was changed since."""
+    drive = {**WRAP["drive"], "joint_application_factor": 1.25}
+    tables = {**WRAP, "wear": {}, "drive": drive, "lubrication": {"lubricant": "manual"}}
+    (told,) = [text for text in wearsim.load_case(tables).warnings if "joint_application_factor" in text]
+    assert "= 1.25 is below the 1.5 that GOST practice gives for lubricant 'manual' alone" in told
+    dripped = wearsim.load_case({**tables, "lubrication": {"lubricant": "drip"}})
+    assert not [text for text in dripped.warnings if "joint_application_factor" in text]

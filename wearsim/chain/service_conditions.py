@@ -141,11 +141,16 @@ def service_conditions(
     if faults:
         raise CaseError(faults)
     driven, load = SHOCKS[words["shock"]]
-    shifts = next(word for most, word in SHIFTS if hours_per_day <= most)
+    supply, shifts = LUBRICATIONS[words["lubrication"]], shifts_of(hours_per_day)
     return ServiceConditions(
         lubrication=words["lubrication"],
         environment=words["environment"],
         tooth_hardness=words["tooth_hardness"],
         service_factor=application_factor("smooth", driven),
-        joint_application=joint_application(load, LUBRICATIONS[words["lubrication"]], shifts),
+        joint_application=joint_application(load, supply, shifts),
     )
+
+
+def shifts_of(hours_per_day: float) -> str:
+    """Return in words the shifts in which a drive runs so many hours a day."""
+    return next(shifts for most, shifts in SHIFTS if hours_per_day <= most)

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.catalogue.catalogues import chains, environments
-from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS
-from wearsim.drive.known_drive import Values, is_plain, read_known, shifts_in_words, use_of
+from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS, shifts_of
+from wearsim.drive.known_drive import Values, is_plain, read_known, use_of
 from wearsim.errors import CaseError, Fault
 from wearsim.quantities import DAYS_OF_YEAR
 
@@ -104,7 +104,7 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
     case = drive.driver.case
     chain, driver, driven = (values[name] for name in ("chain", "driver", "driven"))
     iso, load = SHOCKS[values["shock"]]
-    shifts = shifts_in_words(values)
+    shifts = shifts_of(values["hours_per_day"])
     return {
         "chain": chain,
         "driver": driver,

@@ -9,7 +9,6 @@ from wearsim.catalogue.catalogues import HARDNESSES, chains, environments, neare
 from wearsim.catalogue.chain_names import known_chain_name
 from wearsim.chain.service_conditions import (
     LUBRICATIONS,
-    SHIFTS,
     SHOCKS,
     ServiceConditions,
     plain_word,
@@ -185,8 +184,3 @@ def use_of(values: Values) -> ServiceConditions:
     """Return what follows from lubrication, shocks and hours of a day."""
     names = ("lubrication", "shock", "hours_per_day", "environment", "tooth_hardness")
     return service_conditions(**{name: values[name] for name in names})
-
-
-def shifts_in_words(values: Values) -> str:
-    """Return in how many shifts a drive runs by the hours of its day."""
-    return next(shifts for most, shifts in SHIFTS if values["hours_per_day"] <= most)

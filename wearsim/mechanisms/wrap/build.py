@@ -12,8 +12,10 @@ from wearsim.case.table_inputs import chain_pull, chain_speed, face_width, slip_
 from wearsim.catalogue.catalogues import Chain
 from wearsim.chain.chain_length import belt_links, even_links, odd_links_warning
 from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_with_links
+from wearsim.chain.joint_pressure import joint_application
 from wearsim.chain.joint_wear import JointLaw
 from wearsim.chain.loop_layout import LoopLayout
+from wearsim.chain.service_conditions import LUBRICATIONS, shifts_of
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
 from wearsim.geometry.blank import gap_space
@@ -33,6 +35,11 @@ SAG_PERCENT = 2.0
 LINK_STIFFNESS_PER_PITCH = 5e4 / 12.7
 SLIP_FRACTION = 0.1
 PHASES = 6
+_ONE_SHIFT = 8.0
+"""Hours a day where a case gives none."""
+_SHIFTS = {"one": "one shift", "two": "two shifts", "three": "three shifts"}
+_OF_POWER = "it changes the power in the ratings, not the wear"
+_OF_PRESSURE = "it changes the joint pressure in the ratings, not the wear"
 
 
 def wrapped_drive(
@@ -112,10 +119,8 @@ def wrapped_drive(
         friction_roller_tooth=frictions[0] or 0.0,
         friction_roller_bush=frictions[1] or 0.0,
         joint=joint,
-        service_factor=_factor(case, "service", "smooth load", "power"),
-        joint_application_factor=_factor(
-            case, "joint_application", "steady, drip oil, one shift", "joint pressure"
-        ),
+        service_factor=_service_factor(case),
+        joint_application_factor=_joint_application_factor(case),
         chain=chain,
         joint_friction=_joint_friction(case),
         hub=hub,
@@ -144,14 +149,33 @@ def _wrap_angle(layout: DriveLayout | LoopLayout, driver: bool) -> float:
     return layout.wrap_angle_1 if driver else layout.wrap_angle_2
 
 
-def _factor(case: ChainRecord, name: str, why: str, what: str) -> float:
-    key = f"{name}_factor"
-    given: float | None = getattr(case.tables.drive or DriveTable(), key)
-    effect = f"it changes the {what} in the ratings, not the wear"
+def _service_factor(case: ChainRecord) -> float:
+    given = (case.tables.drive or DriveTable()).service_factor
     if given is None:
-        case.take(f"drive.{key}", 1.0, f"{why}; {effect}")
+        case.take("drive.service_factor", 1.0, f"smooth load; {_OF_POWER}")
         return 1.0
-    case.assumptions.append(f"{name.replace('_', ' ')} factor {given:g}: {effect}")
+    case.assumptions.append(f"service factor {given:g}: {_OF_POWER}")
+    return given
+
+
+def _joint_application_factor(case: ChainRecord) -> float:
+    """Return K_e, by default that of a steady load with the lubricant and the hours of the case."""
+    given = (case.tables.drive or DriveTable()).joint_application_factor
+    lubricant = (case.inputs.get("lubrication") or {}).get("lubricant")
+    lubrication = LUBRICATIONS.get(lubricant, "drip")
+    if given is None:
+        shifts = shifts_of((case.inputs.get("service") or {}).get("hours_per_day") or _ONE_SHIFT)
+        factor = joint_application(lubrication=lubrication, shifts=shifts).factor
+        why = f"steady load, {lubrication} lubrication, {_SHIFTS[shifts]} a day; {_OF_PRESSURE}"
+        case.take("drive.joint_application_factor", factor, why)
+        return factor
+    case.assumptions.append(f"joint application factor {given:g}: {_OF_PRESSURE}")
+    least = joint_application(lubrication=lubrication).factor
+    if given < least and lubricant is not None:
+        case.warnings.append(
+            f"drive.joint_application_factor = {given:g} is below the {least:g} that GOST practice gives "
+            f"for lubricant {lubricant!r} alone: raise it, or delete it to use that of a steady load"
+        )
     return given
 
 

@@ -199,7 +199,8 @@ def select(
     """Choose chains and teeth of the catalogue for a drive.
 
     A drive passes if it is within the ratings and its chain lasts long enough. The lightest drive
-    comes first, or the cheapest with --price. The exit code is 3 if no drive passes.
+    comes first, or the cheapest with --price. The exit code is 3 if no drive passes, or if one that
+    --verify wears does not last the hours.
     """
     from wearsim.study.select.sheet import answer_to, selection_json, selection_text
     from wearsim.study.select.wish import read_wish
@@ -226,7 +227,10 @@ def select(
         warn("select: no drive meets all limits: see the line Refused")
         return FAILED
     _write(answer, wish, out, csv_file, force)
-    return 0
+    short = [one["title"] for one in verified if not one.get("long_enough")]
+    if short:
+        warn(f"select: not long enough, or not worn: {'; '.join(short)}; see Verified")
+    return FAILED if short else 0
 
 
 def _check_places(out: Path | None, csv_file: Path | None, as_json: bool, force: bool) -> None:
