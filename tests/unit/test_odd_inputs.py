@@ -191,3 +191,26 @@ def test_fault_of_a_setting_names_what_was_typed(setting, told):
     with pytest.raises(CaseError) as caught:
         load_case(STRAND, [setting])
     assert any(line.startswith(told) for line in str(caught.value).splitlines()), str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("called", "told"),
+    [
+        (wearsim.simulate, "case: must be a case, the path of its file, or its tables"),
+        (wearsim.check, "case: must be a case, the path of its file, or its tables"),
+        (lambda array: list(wearsim.simulate_many([array])), "case: must be a case"),
+        (lambda array: wearsim.sweep(STRAND, array), "grid: must map keys of the case to values"),
+        (lambda array: wearsim.optimise(STRAND, array), "parameters: must map keys of the case to values"),
+        (
+            lambda array: wearsim.uncertainty(STRAND, array),
+            "uncertainty: must map keys of the case to values",
+        ),
+        (lambda array: wearsim.maintain(STRAND, array), "maintenance: must map keys of the case to values"),
+    ],
+    ids=["simulate", "check", "simulate_many", "sweep", "optimise", "uncertainty", "maintain"],
+)
+def test_array_in_the_wrong_place_is_named(called, told):
+    with pytest.raises(CaseError) as caught:
+        called(np.array([1.0, 2.0]))
+    assert str(caught.value).startswith(told)
+    assert str(caught.value).endswith("(got a ndarray)")

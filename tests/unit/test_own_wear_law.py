@@ -145,3 +145,11 @@ def test_a_wrong_law_is_refused(values, words):
         )
     assert words in str(caught.value)
     assert "new" not in wear_laws()
+
+
+def test_a_law_that_is_not_there_says_how_it_is_added():
+    """As where the case of an earlier program is loaded."""
+    with pytest.raises(
+        wearsim.CaseError, match=r"or a law that this program has added with wearsim\.wear_law"
+    ):
+        wearsim.load_case({**CASE, "wear": {"law": "of another day"}})

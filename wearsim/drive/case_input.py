@@ -21,7 +21,34 @@ def loaded(source: CaseInput | GivenInput) -> Case | DriveCase:
     """Return a case, or a whole drive where the input names all of its sprockets."""
     if isinstance(source, Case | DriveCase):
         return source
-    return load_case(source if isinstance(source, Mapping | GivenInput) else Path(source))
+    if isinstance(source, str | PathLike):
+        return load_case(Path(source))
+    if not isinstance(source, Mapping | GivenInput):
+        text = f"must be a case, the path of its file, or its tables (got a {type(source).__name__})"
+        raise CaseError([Fault(text, "case")])
+    return load_case(source)
+
+
+def keys_of(name: str, given: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Return an argument that maps keys of a case to values, empty where it is left out.
+
+    Raises
+    ------
+    CaseError
+        It is no mapping.
+
+    Examples
+    --------
+    >>> keys_of("grid", {"load.power_kW": [1, 2]})
+    {'load.power_kW': [1, 2]}
+    """
+    if given is not None and not isinstance(given, Mapping):
+        text = (
+            "must map keys of the case to values, such as {'load.power_kW': ...} "
+            f"(got a {type(given).__name__})"
+        )
+        raise CaseError([Fault(text, name)])
+    return dict(given or {})
 
 
 def given_input(source: CaseInput) -> GivenInput:
@@ -38,8 +65,7 @@ def with_table(source: CaseInput, name: str, table: Mapping[str, Any] | None) ->
     given = given_input(source)
     if table is None:
         return given
+    added = {name: keys_of(name, table)}
     without = changed(given, {name: None})
     # In what was written too: the title is not to tell of what only the study takes.
-    return replace(
-        without, written={**without.written, name: dict(table)}, tables={**without.tables, name: dict(table)}
-    )
+    return replace(without, written={**without.written, **added}, tables={**without.tables, **added})

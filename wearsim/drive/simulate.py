@@ -84,7 +84,7 @@ def simulate(
 
 
 def simulate_many(
-    cases: "Iterable[Case | DriveCase]", threads: int | None = None
+    cases: "Iterable[CaseInput]", threads: int | None = None
 ) -> "Iterator[CaseLife | WearsimError]":
     """Find the lives of many cases.
 
@@ -97,8 +97,8 @@ def simulate_many(
 
     Parameters
     ----------
-    cases : iterable of Case or DriveCase
-        Complete cases, taken as they are needed.
+    cases : iterable of Case, DriveCase, path or mapping
+        Taken as they are needed.
     threads : int, optional
         As many as the machine has cores where it is left out.
 
@@ -106,6 +106,11 @@ def simulate_many(
     ------
     CaseLife or WearsimError
         For each case, in their order; the error that `simulate` would raise.
+
+    Raises
+    ------
+    CaseError
+        A path or a mapping that is no case.
 
     Examples
     --------
@@ -122,8 +127,9 @@ def simulate_many(
     True
     """
     from wearsim.drive.batch_lives import batched_lives
+    from wearsim.drive.case_input import loaded
 
-    for single, group in groupby(cases, key=lambda case: isinstance(case, Case)):
+    for single, group in groupby(map(loaded, cases), key=lambda case: isinstance(case, Case)):
         lives = batched_lives if single else _drive_lives
         yield from lives(cast("Iterable[Any]", group), threads)
 

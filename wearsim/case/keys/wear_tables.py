@@ -5,7 +5,14 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, WrapValidator, create_model, field_validator
 
-from wearsim.catalogue.catalogues import HARDNESSES, condition_name, materials, wear_conditions, wear_laws
+from wearsim.catalogue.catalogues import (
+    HARDNESSES,
+    condition_name,
+    materials,
+    nearest,
+    wear_conditions,
+    wear_laws,
+)
 from wearsim.catalogue.own_wear_laws import own_constant_faults, own_wear_laws
 from wearsim.contact.stop_limits import CHAIN_LIMITS, LimitKey
 from wearsim.input.table import Finite, Table, known, others_of
@@ -19,7 +26,15 @@ def _law_keys() -> dict[str, tuple[str, ...]]:
 
 
 def _known_law(value: Any, handler: Callable[[Any], Any]) -> Any:
-    return value if isinstance(value, str) and value in own_wear_laws() else handler(value)
+    if not isinstance(value, str) or value in _KEYS:
+        return handler(value)
+    if value not in own_wear_laws():
+        *most, last = map(repr, _KEYS)
+        raise ValueError(
+            f"must be {', '.join(most)} or {last}, or a law that this program has added with "
+            f"wearsim.wear_law{nearest(value, list(_KEYS))}"
+        )
+    return value
 
 
 def known_condition(value: str | None) -> str | None:

@@ -162,7 +162,7 @@ def _joint_application_factor(case: ChainRecord) -> float:
     """Return K_e, by default that of a steady load with the lubricant and the hours of the case."""
     given = (case.tables.drive or DriveTable()).joint_application_factor
     lubricant = (case.inputs.get("lubrication") or {}).get("lubricant")
-    lubrication = LUBRICATIONS.get(lubricant, "drip")
+    lubrication = LUBRICATIONS.get(str(lubricant), "drip")
     if given is None:
         shifts = shifts_of((case.inputs.get("service") or {}).get("hours_per_day") or _ONE_SHIFT)
         factor = joint_application(lubrication=lubrication, shifts=shifts).factor

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from wearsim.case.model import Case
-from wearsim.drive.case_input import CaseInput, with_table
+from wearsim.drive.case_input import CaseInput, keys_of, with_table
 from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import Range, check_ranges
 from wearsim.report.public_answer import DrawnAnswer
@@ -158,7 +158,11 @@ def optimise(
     check_ranges("optimise", given, {"evaluations": _EVALUATIONS, "seed": SEED, "threads": THREADS})
     table = None
     if parameters is not None:
-        table = {"parameters": dict(parameters), "objectives": list(objectives), "limits": dict(limits or {})}
+        table = {
+            "parameters": keys_of("parameters", parameters),
+            "objectives": list(objectives),
+            "limits": keys_of("limits", limits),
+        }
     study = load_optimise(with_table(case, "optimise", table), (), evaluations, seed)
     check_library(study)
     done = 0

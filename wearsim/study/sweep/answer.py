@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from wearsim.drive.case_input import CaseInput, given_input, loaded
+from wearsim.drive.case_input import CaseInput, given_input, keys_of, loaded
 from wearsim.errors import check_ranges
 from wearsim.input.changes import changed
 from wearsim.input.document import GivenInput
@@ -155,7 +155,7 @@ def sweep(
     if grid is None and not together and not designs:
         study = load_sweep(_study(case))
     else:
-        study = _study_of(case, dict(grid or {}), together, designs)
+        study = _study_of(case, keys_of("grid", grid), together, designs)
     table = run(study.design, threads, progress)
     failures(table)
     return SweepResult(study, table)
