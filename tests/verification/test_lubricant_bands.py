@@ -233,3 +233,26 @@ def test_contacts_that_run_dry_are_told() -> None:
     assert "lasts 83.33 h and is renewed every 120 h: contacts wear 12.6 times as fast" in told
     near = wearsim.simulate(wearsim.load_case(OILED_BY_HAND))
     assert not any("is renewed every" in text for text in near.warnings)
+
+
+@pytest.mark.wide
+def test_teeth_at_other_intervals_are_within_their_stated_error() -> None:
+    """`lubricate` runs teeth at one interval; new chains come oiled at other times at the others."""
+    wrapped = {
+        "format_version": 1,
+        "chain": {"designation": "12A-1"},
+        "sprocket": {"teeth": 17, "profile": "iso606", "form": "min", "role": "driver", "nodes": 101},
+        "drive": {"mate_teeth": 38, "links": 120},
+        "mechanism": {"kind": "wrap"},
+        "load": {"power_kW": 1.5, "speed_rpm": 120},
+        "run": {"horizon_hours": 3e5, "life_tolerance": 0.1},
+        "lubrication": {"lubricant": "manual", "lasts_hours": 80.0, "interval_hours": 90.0},
+    }
+    found = wearsim.lubricate(wrapped)
+    (plan,) = found.study.plans
+    lives = {policy.interval: policy.lives["sprocket"] for policy in plan.policies}
+    assert f"by up to {100.0 * plan.moved:.0f} %" in " ".join(found.explained.split())
+    for interval, least in ((90.0, 0.0), (160.0, 0.01)):
+        run = wearsim.simulate(wearsim.load_case(changed(wrapped, {"lubrication.interval_hours": interval})))
+        off = abs(run.parts["sprocket"].hours_run / lives[interval] - 1.0)
+        assert least <= off <= (plan.moved if least else 1e-9)

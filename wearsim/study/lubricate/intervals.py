@@ -30,6 +30,9 @@ _NEVER = 1e15
 _ROUNDING = 1e-9
 """Part of what wears in an interval below which it is nothing."""
 
+_RENEWED_AT = np.linspace(0.0, 1.0, 101)
+"""Parts of an interval after which a new chain is put on."""
+
 _NEARLY = 1.05
 """Cost over the least up to which an interval is as good as the cheapest."""
 
@@ -46,6 +49,7 @@ class WornPart:
     hours_low: float
     hours_high: float
     is_given: bool  # whether the user says these ends of the drive
+    on_chain: bool = False  # whether new chains are put on it while it wears
 
 
 class LubricantState(NamedTuple):
@@ -102,8 +106,10 @@ class LubricationIntervals:
         parts: Sequence[WornPart],
         application_cost: float | None,
         ends: Sequence[StateEnds] = (),
+        own: float | None = None,
     ) -> None:
         self.state, self.ends = state, ends
+        self.own = own  # interval at which the parts were run [h]; None where the lubricant never aged
         self.parts = parts
         self.application_cost = application_cost
         self.unknown = self._unknown()
@@ -135,7 +141,8 @@ class LubricationIntervals:
         at_ends = [
             (ends.stated, ends.worse.clock(interval), ends.better.clock(interval)) for ends in self.ends
         ]
-        bands = {part.name: _life_band(part, clock, at_ends) for part in self.parts}
+        moved = self.renewal_error(interval)
+        bands = {part.name: _life_band(part, clock, at_ends, moved) for part in self.parts}
         wear = clock.lasting_factor
         cost = cost_low = cost_high = None
         if not self.unknown:
@@ -155,6 +162,28 @@ class LubricationIntervals:
             cost_low=cost_low,
             cost_high=cost_high,
         )
+
+    def renewal_error(self, interval: float) -> float:
+        """Return by which part lives of teeth may be off that were run at another interval.
+
+        A new chain comes lubricated, at any time p between two relubrications, while the teeth go on with
+        the lubricant that they have. In the rest of the interval I they wear like S(I) - S(p) hours of well
+        lubricated contacts, and the chain like S(I - p): so much longer they run on a young chain, of all
+        that a chain lives.
+
+        Equation physics.md (O5).
+        """
+        chains = [part.hours for part in self.parts if not part.on_chain]
+        if interval == self.own or not chains or len(chains) == len(self.parts):
+            return 0.0
+        return (self._ahead(interval) + (0.0 if self.own is None else self._ahead(self.own))) / min(chains)
+
+    def _ahead(self, interval: float) -> float:
+        """Return how much more than a new chain the teeth wear in an interval at most [h]."""
+        clock, until = self.clock(interval), min(interval, self.longest)
+        at = [*(until * _RENEWED_AT), min(self.state.law.lasts / self.state.ageing, until)]
+        whole = clock.steady_cycles(until)
+        return max(whole - clock.steady_cycles(one) - clock.steady_cycles(until - one) for one in at)
 
     def supplied(self, cost_per_hour: float | None) -> RelubricationPolicy:
         """Return what a lubricant leads to that is supplied all the time at a cost, None where unknown."""
@@ -245,15 +274,18 @@ def _life(clock: LubricantClock, lubricated: float) -> float:
 _AtEnds = Sequence[tuple[bool, LubricantClock, LubricantClock]]
 
 
-def _life_band(part: WornPart, clock: LubricantClock, ends: _AtEnds) -> tuple[float, float]:
-    """Return the ends of a life, by the wear coefficient and by what is not known of the lubricant."""
+def _life_band(part: WornPart, clock: LubricantClock, ends: _AtEnds, moved: float) -> tuple[float, float]:
+    """Return the ends of a life, by the wear coefficient, by the lubricant and by when chains are renewed."""
+    life = _life(clock, part.hours)
     causes = [(_life(clock, part.hours_low), _life(clock, part.hours_high))]
     causes += [
         (_life(worse, part.hours), _life(better, part.hours))
         for stated, worse, better in ends
         if stated or not part.is_given
     ]
-    return band_of_causes(_life(clock, part.hours), causes)
+    if part.on_chain and moved > 0.0:
+        causes.append((life / (1.0 + moved), life * (1.0 + moved)))
+    return band_of_causes(life, causes)
 
 
 def _wear_band(part: WornPart, wear: float, ends: _AtEnds) -> tuple[float, float]:

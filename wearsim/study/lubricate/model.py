@@ -16,6 +16,7 @@ from wearsim.errors import CaseError, Fault
 from wearsim.lubrication.clock import LubricantClock
 from wearsim.lubrication.model import ENDLESS, LubricationInput
 from wearsim.result import Life, LowerBound
+from wearsim.result.ends import CHAIN
 from wearsim.study.lubricate.intervals import (
     LubricantState,
     LubricationIntervals,
@@ -34,10 +35,21 @@ CONVENTIONS = (
 )
 """What the tables rest on."""
 
+RENEWED = (
+    "lives of teeth are run at the interval of the case; at the others new chains come at other times "
+    "between relubrications, which may move them by up to {:.0f} % (in their band): run wearsim life with "
+    "that interval for its own"
+)
+"""What they rest on where chains are renewed."""
+
 SUPPLIED = (
     "a lubricant that is supplied all the time does not age; that its supply may fail is not in the costs"
 )
 """What they rest on where there is such a lubricant."""
+
+
+_TOLD = 0.005
+"""Part of a life above which it is told that it may be off."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +70,7 @@ class LubricantPlan:
     unknown: str  # why there is no cheapest interval, or no cost of a supply; empty where there is one
     gives_out: bool  # whether the lubricant gives out just beyond the cheapest interval
     missed: MissedRelubrication | None  # None where none is due
+    moved: float = 0.0  # part by which lives of teeth at other intervals may be off
     cost_without_oil: float | None = None  # per 1000 h, of a supply whose price alone is unknown
 
 
@@ -126,10 +139,11 @@ def lubricant_plan(drive: LubricatedDrive) -> LubricantPlan:
     ]
     parts = tuple(_part(drive, clock.lubricant, name) for name in drive.lives)
     price = 0.0 if given.supplied else given.application_cost
-    intervals = LubricationIntervals(state, parts, price, ends)
+    at = None if given.interval is None else clock.lubricant.repeats / per_hour
+    intervals = LubricationIntervals(state, parts, price, ends, at)
     if given.supplied:
         return _supplied_plan(given, intervals)
-    own = None if given.interval is None else intervals.policy(clock.lubricant.repeats / per_hour)
+    own = None if at is None else intervals.policy(at)
     cheapest, cheap, unknown = intervals.cheapest()
     shown = {*intervals.shown(), *(one.interval for one in (own, cheapest) if one is not None)}
     of_missed = own or cheapest
@@ -148,6 +162,7 @@ def lubricant_plan(drive: LubricatedDrive) -> LubricantPlan:
         unknown=unknown,
         gives_out=cheapest is not None and intervals.gives_out_beyond(cheapest),
         missed=missed,
+        moved=max(intervals.renewal_error(interval) for interval in shown),
     )
 
 
@@ -198,6 +213,7 @@ def _part(drive: LubricatedDrive, lubricant: LubricantClock, name: str) -> WornP
         hours_low=float(ends[0]),
         hours_high=float(ends[1]),
         is_given=is_given,
+        on_chain=drive.case.drive.rests and name != CHAIN,
     )
 
 
@@ -206,7 +222,12 @@ def lubrication_study(
 ) -> LubricationStudy:
     """Return the lubricants of one drive side by side, that of the case first."""
     first, plans = drives[0], tuple(lubricant_plan(drive) for drive in drives)
-    conventions = (*CONVENTIONS, *([SUPPLIED] if any(plan.supplied for plan in plans) else []))
+    moved = max(plan.moved for plan in plans)
+    conventions = (
+        *CONVENTIONS,
+        *([RENEWED.format(100.0 * moved)] if moved > _TOLD else []),
+        *([SUPPLIED] if any(plan.supplied for plan in plans) else []),
+    )
     return LubricationStudy(
         first.case.name,
         title,
