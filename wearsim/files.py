@@ -1,10 +1,14 @@
-"""Writing to disk: beside and renamed, so that a place holds the old, the new or nothing."""
+"""Files: those that a user gives are read, and what is written is old, new or nothing at every moment."""
 
 import contextlib
+import csv
+import errno
 import glob
+import io
 import os
 import re
 import shutil
+import stat
 import sys
 import tempfile
 import threading
@@ -15,14 +19,64 @@ from typing import IO
 from wearsim._version import __version__
 from wearsim.errors import OutputError
 
+MOST_BYTES = 50_000_000
+"""Of a file that a user gives, if nothing else is said: some three million rows of two numbers."""
+
+
+def check_given(path: Path, most: int = MOST_BYTES) -> None:
+    """Look at a file that a user gives before it is opened.
+
+    Raises
+    ------
+    OSError
+        It cannot be read, is larger than that, or is no regular file, which is not opened: a pipe that nobody
+        writes to would wait for ever, and a device may have no end.
+    """
+    status = path.stat()
+    if stat.S_ISDIR(status.st_mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not stat.S_ISREG(status.st_mode):
+        raise OSError(errno.EINVAL, "it is a pipe or a device, not a regular file")
+    if status.st_size > most:
+        raise OSError(errno.EFBIG, f"it has {status.st_size / 1e6:.3g} MB, {most / 1e6:.3g} MB are the most")
+
+
+def given_bytes(path: Path, most: int = MOST_BYTES) -> bytes:
+    """Return a file that a user gives, or raise as `check_given`."""
+    check_given(path, most)
+    return path.read_bytes()
+
+
+def given_text(path: Path, errors: str = "strict") -> str:
+    """Return the UTF-8 text of a file that a user gives, as `given_bytes`, with line ends of one kind."""
+    text = given_bytes(path).decode("utf-8-sig", errors)
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def given_lines(path: Path) -> list[tuple[int, list[str]]]:
+    """Return the cells of every line of a CSV file that a user gives, with the numbers of the lines.
+
+    Raises
+    ------
+    OSError, ValueError, csv.Error
+        It cannot be read, is no UTF-8 or no CSV.
+    """
+    reader = csv.reader(io.StringIO(given_bytes(path).decode("utf-8-sig"), newline=""))
+    return [(reader.line_num, line) for line in reader]
+
 
 def check_free(path: Path, force: bool) -> None:
     """Raise where something is in the way."""
     try:
+        path.resolve()
         taken = path.exists()
         file = next((parent for parent in path.parents if parent.is_file()), None)
-    except OSError as error:
-        raise OutputError(f"{path}: must be reachable: {error.strerror or error}") from None
+    except (
+        OSError,
+        RuntimeError,
+    ) as error:  # the latter of links that lead to one another, until Python 3.13
+        reason = getattr(error, "strerror", None) or error
+        raise OutputError(f"{path}: must be reachable: {reason}") from None
     if file is not None:
         raise OutputError(f"{path}: must lie in a folder, but {file} is a file: choose another place")
     if taken and not force:
@@ -63,20 +117,22 @@ def check_folder(folder: Path, force: bool) -> None:
         return
     if not folder.is_dir():
         raise OutputError(f"{folder}: must be a folder to be replaced, but is a file: choose another place")
-    foreign = sorted(_names(folder) - written(folder))
-    if foreign:
+    own = written(folder)
+    foreign = next((name for name in _names(folder) if name not in own), None)
+    if foreign is not None:
         raise OutputError(
             f"{folder}: must hold nothing but what its file {MARKER} lists to be replaced, but holds "
-            f"{foreign[0]}: move that away, or choose another place"
+            f"{foreign}: move that away, or choose another place"
         )
     if Path.cwd().is_relative_to(folder.resolve()):
         raise OutputError(f"{folder}: must not be the folder you are in: choose another place")
 
 
-def _names(folder: Path) -> set[str]:
-    """Names of the files in a folder and below."""
-    paths = (path for path in folder.rglob("*") if path.is_symlink() or not path.is_dir())
-    return {path.relative_to(folder).as_posix() for path in paths}
+def _names(folder: Path) -> Iterator[str]:
+    """Give the names of the files in a folder and below, and of the folders that hold nothing."""
+    for path in folder.rglob("*"):
+        if path.is_symlink() or not path.is_dir() or not any(path.iterdir()):
+            yield path.relative_to(folder).as_posix()
 
 
 @contextlib.contextmanager

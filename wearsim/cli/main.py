@@ -16,7 +16,7 @@ from wearsim.cli.completion import use_own_bash
 from wearsim.cli.handbook import commands_of_before
 from wearsim.command.example_group import ExampleGroup
 from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error, uses_colour
-from wearsim.errors import WearsimError
+from wearsim.errors import CaseError, Fault, WearsimError
 
 _HELP = """How long will this sprocket last?
 
@@ -76,6 +76,8 @@ def main() -> None:
     """Run the command line and exit with its code."""
     # Importing makes some hundred thousand objects that stay: not to be looked through again and again.
     gc.set_threshold(50_000)
+    # Pictures go to files: no window is opened, so which one is asked for does not matter.
+    os.environ.pop("MPLBACKEND", None)
     interrupt = _Interrupt()
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, interrupt)
@@ -83,6 +85,7 @@ def main() -> None:
         if "_WEARSIM_COMPLETE" in os.environ:
             use_own_bash()
             wearsim_command.main(prog_name="wearsim")
+        _check_environment()
         # Not click's own main: it turns a closed pipe into exit code 1.
         with wearsim_command.make_context("wearsim", sys.argv[1:], color=uses_colour()) as context:
             code = wearsim_command.invoke(context)
@@ -103,6 +106,15 @@ def main() -> None:
         sys.exit(exit_code(error))
     except Exception as error:
         sys.exit(_interrupted() if interrupt.seen else _unexpected(error))
+
+
+def _check_environment() -> None:
+    """Raise where a variable that the libraries read is no whole number, each for itself and late."""
+    for name, least in (("NUMBA_NUM_THREADS", 1), ("SOURCE_DATE_EPOCH", 0)):
+        value = os.environ.get(name)
+        if value and not (value.isascii() and value.isdigit() and int(value) >= least):
+            message = f"must be a whole number of at least {least} (got {value!r}): unset it"
+            raise CaseError([Fault(message, "", f"environment variable {name}")])
 
 
 def _interrupted() -> int:

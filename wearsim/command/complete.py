@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from wearsim.catalogue.shipped_cases import place_of_case, place_of_readings, shipped_cases
+from wearsim.files import given_text
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -174,6 +175,6 @@ def _is_gear(path: Path) -> bool:
     import tomllib
 
     try:
-        return "gear" in tomllib.loads(path.read_text(encoding="utf-8"))
+        return "gear" in tomllib.loads(given_text(path))
     except (OSError, ValueError):
         return False

@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,11 +10,16 @@ from pathlib import Path
 import numpy as np
 
 from wearsim.catalogue.catalogues import nearest
+from wearsim.files import given_lines
 from wearsim.geometry.profile_points import Vector, chord_lengths
 from wearsim.input.faults import Faults
 from wearsim.input.units import LEAST, MAX
 
 _MAX_ROWS = 200_000
+
+
+_NAME = re.compile(r"[\w .,;%/()\[\]-]{0,60}")
+"""What may be the name of a column."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,8 +39,7 @@ def read_columns(
 ) -> dict[str, Vector]:
     """Read a CSV file of numbers and report every bad cell."""
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            lines = list(csv.reader(file))
+        lines = [cells for _, cells in given_lines(path)]
     except (OSError, ValueError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
         faults.add(key, f"the file must be readable CSV (got {str(path)!r}: {reason})")
@@ -43,6 +48,8 @@ def read_columns(
     before = faults.count
     for text in header_faults(names, required, optional):
         faults.add(key, f"{path.name}:1: {text}")
+    if faults.count > before:
+        return {}
     values = _cells(path, names, lines[1:], key, faults)
     if faults.count > before:
         return {}
@@ -53,16 +60,24 @@ def read_columns(
 def header_faults(names: Sequence[str], required: Sequence[str], optional: Sequence[str]) -> list[str]:
     """Return what is wrong with the names of columns.
 
+    What cannot be one is not quoted: the file may be another than was meant, and its lines nobody's business.
+
     Examples
     --------
     >>> header_faults(["x_mm"], ["x_mm", "load_N"], [])
     ["column 'load_N' is missing"]
+    >>> header_faults(["x_mm", "y:0:root"], ["x_mm"], [])
+    ['column 2 must be one of x_mm: its head is no name']
     """
     known = [*required, *optional]
     found = [
         f"column {name!r} is missing{nearest(name, list(names))}" for name in required if name not in names
     ]
-    found += [f"unknown column {name!r}{nearest(name, known)}" for name in names if name not in known]
+    for number, name in enumerate(names, start=1):
+        if name not in known and _NAME.fullmatch(name):
+            found.append(f"unknown column {name!r}{nearest(name, known)}")
+        elif name not in known:
+            found.append(f"column {number} must be one of {', '.join(known)}: its head is no name")
     if len(set(names)) != len(names):
         found.append("every column may stand there once only")
     return found

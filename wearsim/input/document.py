@@ -14,6 +14,7 @@ from pydantic import ValidationError
 
 from wearsim.catalogue.shipped_cases import place_of_case, similar_case
 from wearsim.errors import CaseError, Fault
+from wearsim.files import given_bytes
 from wearsim.input.column_files import with_column_files
 from wearsim.input.faults import Faults
 from wearsim.input.table import CalculationTables, Table
@@ -142,6 +143,10 @@ STDIN = Path("-")
 """What stands for the case that is on standard input."""
 
 
+_MOST_BYTES = 2_000_000
+"""Of a case: more than any has, and little enough to be read at once."""
+
+
 @cache
 def stdin_bytes() -> bytes:
     """Return all of standard input, which can be read only once."""
@@ -151,7 +156,7 @@ def stdin_bytes() -> bytes:
 def text_of(path: Path) -> str:
     """Return the text of a file, or what is on standard input."""
     try:
-        return (stdin_bytes() if path == STDIN else path.read_bytes()).decode("utf-8-sig")
+        return (stdin_bytes() if path == STDIN else given_bytes(path, _MOST_BYTES)).decode("utf-8-sig")
     except OSError as error:
         similar = similar_case(path)
         hint = f"; did you mean the shipped case {similar!r}?" if similar else ""

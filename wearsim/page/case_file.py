@@ -6,7 +6,7 @@ from pathlib import Path
 
 from wearsim.catalogue.shipped_cases import shipped_cases
 from wearsim.errors import CaseError, Fault, OutputError
-from wearsim.files import write_file
+from wearsim.files import given_bytes, write_file
 from wearsim.input.document import leaves
 
 _EDITED = ("cases", "drives")
@@ -65,7 +65,7 @@ class CaseFile:
 def read_file(path: Path) -> CaseFile:
     """Return a file as it is on disk."""
     try:
-        content = path.read_bytes()
+        content = given_bytes(path)
         file = CaseFile(path, content, "\r\n" if b"\r\n" in content else "\n")
         _ = file.text
     except OSError as error:

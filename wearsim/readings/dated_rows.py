@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.errors import CaseError, Fault
+from wearsim.files import given_text
 from wearsim.input.csv_tables import header_faults
 from wearsim.readings.day_format import iso_days
 from wearsim.readings.kept_tables import (
@@ -138,7 +139,7 @@ def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]
 def _lines(path: Path) -> list[Line]:
     """Return the cells of every line of a file."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = given_text(path)
         lines = split_lines(text)
     except (OSError, ValueError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)

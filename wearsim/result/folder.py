@@ -12,7 +12,7 @@ import numpy as np
 from wearsim.chain.rating_findings import RatingFinding
 from wearsim.errors import OutputError
 from wearsim.extras import library
-from wearsim.files import new_folder
+from wearsim.files import given_text, new_folder
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.quantities import quantities
@@ -121,7 +121,7 @@ def _no_result(folder: Path, why: str) -> OutputError:
 def _json(path: Path) -> dict[str, Any]:
     """Return the object in a file."""
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(given_text(path))
     except ValueError as error:
         raise ValueError(f"{path.name} is not readable JSON: {error}") from None
     if not isinstance(content, dict):
@@ -141,15 +141,12 @@ def _stored(folder: Path) -> dict[str, Any]:
             f"{version!r}: read it with the wearsim that wrote it"
         )
     try:
-        lock = tomllib.loads((folder / "case.lock.toml").read_text(encoding="utf-8"))
+        lock = tomllib.loads(given_text(folder / "case.lock.toml"))
     except ValueError as error:
         raise ValueError(f"case.lock.toml is not readable TOML: {error}") from None
     inputs = with_files(lock, "")
     mechanism = mechanism_of(inputs)
-    files = {
-        name: (folder / _INPUTS / name).read_text(encoding="utf-8", errors="surrogateescape")
-        for name in _named(inputs)
-    }
+    files = {name: given_text(folder / _INPUTS / name, "surrogateescape") for name in _named(inputs)}
     history = _read_columns(folder / "history.csv", mechanism.history)
     flank = _read_columns(folder / "flank.csv", mechanism.flank)
     found = fields_of_result(stored, inputs, files, history, flank)
@@ -255,7 +252,7 @@ def _write_json(path: Path, value: Mapping[str, Any]) -> None:
 
 def _read_columns(path: Path, least: tuple[str, ...]) -> dict[str, Vector]:
     """Columns of a table by the names in its head: those that it has at least, and any other quantity."""
-    head, _, body = path.read_text(encoding="utf-8").partition("\n")
+    head, _, body = given_text(path).partition("\n")
     # Twice, as two empty cells beside each other share a comma.
     filled = body.replace(",,", ",nan,").replace(",,", ",nan,").replace(",\n", ",nan\n")
     rows = filled.splitlines()

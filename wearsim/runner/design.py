@@ -14,6 +14,7 @@ from wearsim.catalogue.catalogues import nearest
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.wheels import part_names
 from wearsim.errors import CaseError, Fault
+from wearsim.files import given_text
 from wearsim.input.document import Document
 from wearsim.input.keys import is_dict, schema_fields, schema_of
 from wearsim.input.mechanism_registry import MECHANISMS, WHOLE_DRIVE, mechanism_of
@@ -213,7 +214,7 @@ def _taken(document: Document, files: dict[str, str], path: str) -> str:
     """Read a file that a case names, if it is there, and return its name without folder."""
     name = PurePath(path).name
     try:
-        text = (document.folder / path).read_text(encoding="utf-8", errors="surrogateescape")
+        text = given_text(document.folder / path, "surrogateescape")
     except OSError:
         return name
     if files.setdefault(name, text) != text:

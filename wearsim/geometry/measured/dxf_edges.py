@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wearsim.errors import GeometryError
+from wearsim.files import check_given
 from wearsim.geometry.profile_points import Vector
 
 if TYPE_CHECKING:
@@ -36,6 +37,9 @@ _MILLIMETRES = {
 }
 _FARTHEST = 1e6
 """Distance of edges from the origin, and length of curves [mm], beyond which nothing is a sprocket's."""
+
+_MOST_BYTES = 20_000_000
+"""Of a drawing: of one sprocket, it has some hundred kilobytes."""
 
 _UNREADABLE = (
     *(OSError, ValueError, LookupError, TypeError, AttributeError),
@@ -71,13 +75,16 @@ def _document(path: Path, notes: list[str]) -> "Drawing":
     from ezdxf.lldxf.const import DXFError
 
     try:
-        document = readfile(path)
-        document.modelspace()  # A damaged file may hold none.
-        return document
-    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
+        check_given(path, _MOST_BYTES)
+        path.open("rb").close()
+    except OSError as error:
         raise GeometryError(
             f"{path}: must be a DXF file, but cannot be opened ({error.strerror}): check the path"
         ) from None
+    try:
+        document = readfile(path)
+        document.modelspace()  # A damaged file may hold none.
+        return document
     except (DXFError, *_UNREADABLE):
         pass
     try:

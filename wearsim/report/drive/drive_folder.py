@@ -13,7 +13,7 @@ from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.load_case import load_drive
 from wearsim.errors import OutputError, WearsimError
-from wearsim.files import file_names, new_folder
+from wearsim.files import file_names, given_text, new_folder
 from wearsim.input.document import GivenInput, leaves, text_of
 from wearsim.report.drive.drive_json import drive_json
 from wearsim.result import WearResult
@@ -63,7 +63,7 @@ def _no_drive(folder: Path, why: str) -> OutputError:
 
 
 def _stored(folder: Path) -> DriveLife:
-    stored = json.loads((folder / _STORED).read_text(encoding="utf-8"))
+    stored = json.loads(given_text(folder / _STORED))
     if stored["schema_version"] != SCHEMA_VERSION:
         raise OutputError(
             f"{folder}: {_STORED} must have schema_version {SCHEMA_VERSION}, has "

@@ -11,6 +11,7 @@ from wearsim.drive.case_input import CaseInput, given_input, loaded
 from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.extras import check_installed
+from wearsim.files import given_bytes
 from wearsim.geometry.measured.registration import Freedom
 from wearsim.quantities import grouped
 from wearsim.readings.dated_rows import readings_file
@@ -115,7 +116,7 @@ class CalibrationResult(DrawnAnswer):
         super()._write(place)
         for path in self.found.case.files:
             (place / "inputs").mkdir(exist_ok=True)
-            (place / "inputs" / path.name).write_bytes(path.read_bytes())
+            (place / "inputs" / path.name).write_bytes(given_bytes(path))
 
 
 def calibrate(

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from wearsim.errors import CaseError, Fault
+from wearsim.files import given_lines
 from wearsim.input.csv_tables import header_faults
 from wearsim.study.judge.falling import WearFall, falls
 from wearsim.study.judge.wear_series import WearReading, WearSeries, wear_series
@@ -81,9 +82,7 @@ def _fall(fall: WearFall, path: Path, wear: str) -> str:
 def _lines(path: Path) -> list[tuple[int, list[str]]]:
     """Return the cells of all lines that hold any, with the numbers of the lines."""
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file)
-            lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
+        lines = [(number, [cell.strip() for cell in line]) for number, line in given_lines(path)]
     except (OSError, ValueError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise CaseError([_fault(f"must be a readable CSV file ({reason}): give another one", path)]) from None

@@ -7,6 +7,7 @@ from pathlib import Path
 from wearsim.catalogue.catalogues import chains
 from wearsim.catalogue.chain_names import chain_name, nearest_chain
 from wearsim.errors import CaseError, Fault
+from wearsim.files import given_lines
 from wearsim.input.csv_tables import header_faults
 from wearsim.study.select.model import Price
 
@@ -53,9 +54,7 @@ def read_prices(path: Path) -> dict[str, Price]:
 def _rows(path: Path) -> list[tuple[int, list[str]]]:
     """Return the cells of all lines that hold any, with the numbers of the lines."""
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file)
-            lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
+        lines = [(number, [cell.strip() for cell in line]) for number, line in given_lines(path)]
     except (OSError, ValueError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise CaseError([_fault(f"must be a readable CSV file ({reason}): give another one", path)]) from None

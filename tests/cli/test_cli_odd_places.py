@@ -1,0 +1,112 @@
+"""Files that are none, places that lead nowhere, and an environment that says nonsense."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from wearsim.command.options import BAD_INPUT
+
+NO_FILE = "it is a pipe or a device, not a regular file"
+
+
+@pytest.fixture
+def pipe(tmp_path):
+    """Return a pipe that nobody writes to: to open it would wait for ever."""
+    path = tmp_path / "pipe"
+    os.mkfifo(path)
+    return path
+
+
+def refused(done, *words):
+    assert done.code == BAD_INPUT
+    assert done.out == ""
+    for word in words:
+        assert word in done.err
+
+
+@pytest.mark.parametrize("command", ["check", "life", "loads"])
+def test_pipe_and_device_are_no_case(cli, pipe, command):
+    refused(cli(command, pipe), f"must be a readable file: {NO_FILE}")
+    refused(cli(command, "/dev/zero"), f"must be a readable file: {NO_FILE}")
+
+
+@pytest.mark.parametrize("profile", ["points", "dxf"])
+def test_pipe_is_no_flank(cli, drive, pipe, profile):
+    place = pipe.rename(pipe.with_suffix(".dxf")) if profile == "dxf" else pipe
+    path = drive()
+    lines = [f'profile = "points"\npoints_file = "{place.name}"' if line.startswith("profile") else line
+             for line in path.read_text("utf-8").splitlines()]  # fmt: skip
+    path.write_text("\n".join(lines), "utf-8")
+    refused(cli("check", path), "sprocket.points_file", NO_FILE)
+
+
+def test_pipe_is_no_log_and_no_price_list(cli, pipe):
+    refused(cli("remaining", "520-15t-wrap", pipe), NO_FILE)
+    refused(cli("judge", pipe), NO_FILE)
+    need = ("--power", 3, "--rpm", 120, "--ratio", 2, "--hours", 5000)
+    refused(cli("select", *need, "--price", pipe), NO_FILE)
+
+
+def test_case_of_gigabytes_is_not_read(cli, tmp_path):
+    """A sparse file: it has no blocks on the disk."""
+    path = tmp_path / "large.toml"
+    with path.open("wb") as file:
+        file.truncate(3_000_000_000)
+    refused(cli("check", path), "it has 3e+03 MB, 2 MB are the most")
+
+
+def test_lines_of_another_file_are_not_quoted(cli, drive, tmp_path):
+    (tmp_path / "secret").write_text(
+        "anna:x:0:0:words:/root:/bin/bash\nme:x:1:1::/home/me:/bin/sh\n", "utf-8"
+    )
+    (tmp_path / "points.csv").symlink_to("secret")
+    path = drive()
+    text = path.read_text("utf-8").replace('profile = "evolute"', 'profile = "points"')
+    path.write_text(text.replace("[sprocket]", '[sprocket]\npoints_file = "points.csv"'), "utf-8")
+    done = cli("check", path)
+    refused(done, "points.csv:1: column 1 must be one of x_mm, y_mm: its head is no name")
+    assert "anna" not in done.err
+    assert "home" not in done.err
+
+
+def test_links_in_a_loop_are_no_place(cli, drive, tmp_path):
+    (tmp_path / "one").symlink_to("two")
+    (tmp_path / "two").symlink_to("one")
+    refused(cli("life", drive(), "--out", tmp_path / "one"), "must be reachable")
+    refused(cli("report", drive(), "--out", tmp_path / "one" / "sheet.html"), "must be reachable")
+
+
+def test_empty_folders_of_others_are_not_replaced(cli, drive, tmp_path):
+    (tmp_path / "mine" / "to be filled").mkdir(parents=True)
+    refused(cli("life", drive(), "--out", tmp_path / "mine", "--force"), "but holds to be filled")
+    assert (tmp_path / "mine" / "to be filled").is_dir()
+
+
+def test_whole_disk_is_not_walked(cli, drive, monkeypatch):
+    seen = []
+    walked = Path.rglob
+
+    def watched(self, pattern):
+        for path in walked(self, pattern):
+            seen.append(path)
+            yield path
+
+    monkeypatch.setattr(Path, "rglob", watched)
+    refused(cli("life", drive(), "--out", "/", "--force"), "move that away, or choose another place")
+    assert len(seen) < 100
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("NUMBA_NUM_THREADS", "many"), ("NUMBA_NUM_THREADS", "0"), ("SOURCE_DATE_EPOCH", "yesterday")],
+)
+def test_variables_that_libraries_read(cli, drive, monkeypatch, name, value):
+    monkeypatch.setenv(name, value)
+    refused(cli("life", drive()), f"environment variable {name}: must be a whole number", "unset it")
+
+
+def test_backend_of_windows_does_not_matter(cli, drive, tmp_path, monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "nonsense")
+    done = cli("report", drive(), "--out", tmp_path / "sheet")
+    assert (done.code, done.err) == (0, "")
