@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 
 import pytest
 
@@ -101,6 +102,22 @@ def test_teeth_wear_as_the_chain_where_that_is_asked_for(plan):
     small = next(part["life_hours"] for part in own["parts"] if part["part"] == "small")
     assert lives[1]["small"] == pytest.approx(small / factor, rel=2e-3)
     assert "--teeth case" in of_case["assumptions"][0]
+
+
+def test_teeth_left_to_a_case_that_the_chain_contradicts_are_warned_of(plan):
+    """0.728422 % in 331 days are what the case says: 1.5 % in 39 days are 17.5 times as fast."""
+    found = plan(log=LOG.replace("01.01.2026", "20.10.2026"))
+    factor = 1.5 / (0.728422 * 39 / 331)
+    (text,) = (text for text in found["warnings"] if "--teeth chain" in text)
+    assert text.startswith(f"the chain wears {factor:.3g} times as fast as the case says")
+
+
+def test_teeth_have_the_band_of_their_life(plan):
+    """A third to 2.9 times the life, either way 1.8 times wider as the rate of joints is extrapolated."""
+    small = next(part for part in plan()["parts"] if part["part"] == "small")
+    for end, factor, sign in (("low", 1.5e-10 / 5e-11, -1.0), ("high", 5e-11 / 1.7e-11, 1.0)):
+        life = small["life_hours"] * math.exp(sign * math.hypot(math.log(factor), math.log(1.8)))
+        assert small[f"remaining_hours_{end}"] == pytest.approx(life - 331 * 16, rel=1e-3)
 
 
 def test_relubrications_are_jobs(plan):

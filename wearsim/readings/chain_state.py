@@ -67,6 +67,11 @@ class ChainState:
             return ""
         return day_after(start, hours / service["hours_per_day"])
 
+    @property
+    def factor(self) -> float:
+        """Median of the coefficient over the case's."""
+        return self.posterior.quantiles[len(LEVELS) // 2]
+
     def of_chain(self, name: str) -> tuple[Quantiles, Quantiles]:
         """Return elongation now [%] and hours left of a chain in rotation."""
         assert self.log.rotation is not None

@@ -14,8 +14,7 @@ from wearsim.runner.scatter import coefficient_key
 
 def drive_as_read(given: Case | DriveCase, state: ChainState, teeth: Teeth) -> Case | DriveCase:
     """Return a case or a drive with the median coefficient of its readings, and relubricated as they say."""
-    first, factor = given.chain_case, state.of("coefficient_factor").middle
-    assert isinstance(factor, float)
+    first, factor = given.chain_case, state.factor
     here = wrap_of(first).referred_here
     changes: dict[str, Any] = {key: factor * value for key, value in here.wear_coefficients.items()}
     changes |= here.wear_settings

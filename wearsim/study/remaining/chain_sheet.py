@@ -128,8 +128,6 @@ def _level(at: int, one: Quantiles) -> float | str | None:
 
 def readings_table(found: ChainState) -> AnswerTable[tuple[ChainReading, float]]:
     """Return each reading as an elongation, beside what the median coefficient says."""
-    factor = found.of("coefficient_factor").middle
-    assert isinstance(factor, float)
     return AnswerTable(
         [
             Column("reading_row", lambda one: one[0].line),
@@ -138,7 +136,7 @@ def readings_table(found: ChainState) -> AnswerTable[tuple[ChainReading, float]]
             Column("elongation_percent", lambda one: one[0].mark),
             Column("result", lambda one: one[0].result),
             Column("error", lambda one: one[0].error),
-            Column("predicted", lambda one: factor * one[1]),
+            Column("predicted", lambda one: found.factor * one[1]),
         ],
         list(zip(found.log.readings, found.expected, strict=True)),
     )
