@@ -24,9 +24,9 @@ from wearsim.readings.contradictions import (
     contradiction_warnings,
     contradictions,
 )
-from wearsim.readings.dated_rows import day_after
 from wearsim.readings.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
 from wearsim.readings.relubrications import relubricated
+from wearsim.result.lives import day_after
 
 _BEYOND, _POINTS = 1.1, 400
 """Part of the latest end of the life up to which the elongation is told, and at how many times."""

@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from datetime import date, timedelta
+from datetime import date
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -96,19 +96,6 @@ class ServiceTime:
         return f"a number of at least {self.zero / self.hours_each:g}{since}"
 
 
-def day_after(start: date, days: float) -> str:
-    """Return the day so many days later; empty where no calendar goes so far.
-
-    Examples
-    --------
-    >>> day_after(date(2026, 3, 30), 2.9)
-    '2026-04-01'
-    """
-    if not days <= (date.max - start).days:
-        return ""
-    return (start + timedelta(days=int(days))).isoformat()
-
-
 def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]) -> DatedRows:
     """Read the cells of a table with one column of times; lines that begin with ``#`` are left out."""
     lines = _lines(path)
@@ -151,10 +138,12 @@ def _lines(path: Path) -> list[Line]:
 
 def _with_days(rows: Sequence[tuple[int, dict[str, str]]], file: str) -> list[tuple[int, dict[str, str]]]:
     """Return rows with their days as year-month-day."""
-    days, why = iso_days([cells[DATE] for _, cells in rows])
-    if why:
-        line, cells = rows[0]
-        raise CaseError([Fault(f"{cells[DATE]} {why}", DATE, file, line)])
+    days, wrong = iso_days([cells[DATE] for _, cells in rows])
+    if wrong:
+        named = [(why, *rows[place]) for place, why in sorted(wrong.items())]
+        raise CaseError(
+            [Fault(f"{why} (got {cells[DATE]!r})", DATE, file, line) for why, line, cells in named]
+        )
     return [(line, {**cells, DATE: day}) for (line, cells), day in zip(rows, days, strict=True)]
 
 

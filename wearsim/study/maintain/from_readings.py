@@ -100,11 +100,7 @@ def year_plan(
         currency=maintenance_of(given.chain_case.inputs).currency or "",
         teeth=teeth,
         jobs=tuple(sorted(jobs, key=lambda job: job.hours)),
-        warnings=(
-            *teeth_warning(state.factor, teeth),
-            *state.warnings,
-            *_not_known(parts, until),
-        ),
+        warnings=(*teeth_warning(state.factor, teeth), *state.warnings, *_not_known(parts, until)),
     )
 
 
