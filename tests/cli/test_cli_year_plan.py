@@ -146,6 +146,17 @@ def test_what_a_plan_needs_is_named(plan, log, message):
     assert message in done.err
 
 
+def test_relubrications_of_chains_in_rotation_are_jobs(plan):
+    """Each after its first 100 days: the next one 100 days after 23 September, and again after 100 more."""
+    log = (
+        "date;quantity;value;error;chain\n01.01.2026;new;;;A\n11.04.2026;relubrication;;;\n"
+        "15.06.2026;new;;;B\n23.09.2026;relubrication;;;B\n28.11.2026;elongation_percent;1;0,01;B\n"
+    )
+    oiled = ("--set", "lubrication={lasts_hours = 5000, dry_factor = 2, price_per_application = 4}")
+    jobs = [job for job in plan(*oiled, log=log)["jobs"] if job["job"] == "relubricate"]
+    assert [job["date"] for job in jobs[:2]] == ["2027-01-01", "2027-04-11"]
+
+
 def test_chains_in_rotation_are_replaced_together(plan):
     """Two chains by turns for 165 and 166 days, 1.5 % each: both worn after as long again, for 2 times 20."""
     log = (

@@ -158,6 +158,16 @@ def test_a_new_chain_on_an_older_machine_begins_its_own_days(state):
     assert [one.hours for one in state(text, dated).log.readings] == [64 * 8]
 
 
+def test_a_meter_that_no_row_begins_is_believed_aloud(state):
+    """16 360 km at 30 km/h are 545.3 h; with the row 'new' 15 360 km are 512 h, and nothing is to be said."""
+    read = f"{HEAD}16360,chain_length_mm,1277.62,100,0.5\n"
+    (text,) = (one for one in state(read).warnings if "no row 'new'" in one)
+    assert "distance_km was when the part was new" in text
+    assert "to have run 545.3 h at the first reading" in text
+    for told in (KEPT["an odometer"], KEPT["days with points"], PLAIN):
+        assert not [one for one in state(told).warnings if "no row 'new'" in one]
+
+
 def test_times_before_the_odometer_of_the_new_chain_are_named(state):
     with pytest.raises(wearsim.CaseError, match="must be a number of at least 1000, as in the row 'new'"):
         state("distance_km,quantity,value\n1000,new,\n900,elongation_percent,0.6\n")
@@ -175,4 +185,7 @@ def test_calibrate_reads_the_same_tables(tmp_path):
         + ";chain_length_inch;50,3;100;0,5 mm\n"
     )
     (one,), (other,) = (wearsim.calibrate(case(), path).found.values for path in (plain, kept))
+    kept.write_text("time_hours,quantity,value,error\n512,elongation_percent,0.6,0.1\n")
+    (text,) = (text for text in wearsim.calibrate(case(), kept).found.warnings if "no row 'new'" in text)
+    assert "to have run 512 h at the first reading" in text
     assert other.value == pytest.approx(one.value, rel=1e-9)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from wearsim.errors import CaseError, Fault
 from wearsim.input.csv_tables import header_faults
+from wearsim.quantities import grouped
 from wearsim.readings.day_format import iso_days
 from wearsim.readings.kept_tables import (
     DATE,
@@ -36,6 +37,9 @@ TIMES = (HOURS, KM, DATE)
 NEW = "new"
 """Row of the time at which a part was new."""
 
+CHAINS = "chain"
+"""Column that names the chain of a row, of several in rotation."""
+
 _MOST_HOURS = 1e9
 
 
@@ -56,7 +60,9 @@ class ServiceTime:
     column: str  # one of `TIMES`
     hours_each: float  # running hours of a km or a day; 1 for hours
     start: date | None  # day on which the part that was measured was new; None where none is known
-    zero: float = 0.0  # what an odometer or hour meter showed when the part was new [h]
+    zero: float | None = (
+        None  # what an odometer or hour meter showed when the part was new [h]; None: not told
+    )
 
     def hours(self, text: str) -> float:
         """Return the running hours of a cell; nan where it holds no time.
@@ -67,7 +73,7 @@ class ServiceTime:
         24.0
         """
         if self.column != DATE:
-            return number(text) * self.hours_each - self.zero
+            return number(text) * self.hours_each - (self.zero or 0.0)
         day = _day(text)
         return math.nan if day is None or self.start is None else (day - self.start).days * self.hours_each
 
@@ -93,7 +99,24 @@ class ServiceTime:
         if self.column == DATE:
             return "a day such as 2026-03-31"
         since = f", as in the row {NEW!r}" if self.zero else ""
-        return f"a number of at least {self.zero / self.hours_each:g}{since}"
+        return f"a number of at least {(self.zero or 0.0) / self.hours_each:g}{since}"
+
+    def warnings(self, first: float) -> Iterator[str]:
+        """Say of how many hours at the first reading a meter is believed that no row begins.
+
+        Examples
+        --------
+        >>> [text[:69] for text in ServiceTime(KM, 1 / 30, None).warnings(500.0)]
+        ["no row 'new' says what distance_km was when the part was new, so that"]
+        >>> list(ServiceTime(KM, 1 / 30, None, zero=0.0).warnings(500.0))
+        []
+        """
+        if self.column != DATE and self.zero is None:
+            yield (
+                f"no row {NEW!r} says what {self.column} was when the part was new, so that it counts from "
+                f"0: the part is taken to have run {grouped(first)} h at the first reading. Where the meter "
+                f"showed more when it was new, put a row {NEW!r} with that above"
+            )
 
 
 def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]) -> DatedRows:
@@ -159,7 +182,7 @@ def service_time(table: DatedRows, inputs: Mapping[str, Any]) -> ServiceTime:
     if table.time != DATE:
         each = 1.0 / _key(table, service, "km_per_hour") if table.time == KM else 1.0
         zero = number(begun) * each
-        return ServiceTime(table.time, each, None, zero if 0.0 <= zero <= _MOST_HOURS else 0.0)
+        return ServiceTime(table.time, each, None, zero if 0.0 <= zero <= _MOST_HOURS else None)
     each = _key(table, service, "hours_per_day")
     days = (_day(cells[DATE]) for _, cells in table.rows)
     given = date.fromisoformat(service["start_date"]) if "start_date" in service else None

@@ -21,10 +21,10 @@ def drive_as_read(given: Case | DriveCase, state: ChainState, teeth: Teeth) -> C
     changes["joint.source"] = f"readings in {Path(state.log.file).name}"
     if teeth == "chain":
         changes |= _of_teeth(given, factor)
-    if state.log.relubrications.hours:
+    if state.log.times_relubricated:
         known = first.inputs.get("lubrication") or {}
         changes |= {f"lubrication.{key}": None for key in SCHEDULES if key in known}
-        changes |= {f"lubrication.{key}": value for key, value in state.log.relubrications.schedule.items()}
+        changes |= {f"lubrication.{key}": value for key, value in state.log.schedule.items()}
     return given.with_(changes)
 
 

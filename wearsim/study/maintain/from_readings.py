@@ -182,7 +182,7 @@ def _relubrications(state: ChainState, until: float) -> list[Job]:
     log, given = state.log.relubrications, state.case.lubrication
     if given is None:
         return []
-    if log.hours:
+    if log.logged_interval:
         return relubrications(log.to_come - log.today, log.mean_interval, until, given.application_cost)
     every = given.interval.hours if given.interval is not None else 0.0
     if not every > 0.0:
