@@ -46,3 +46,17 @@ def test_the_interval_is_that_of_the_present_chain_alone():
     assert (first.low, first.high) == (50.0, 200.0)
     assert then.low != then.low
     assert total([first, then]) == pytest.approx(100.0)
+
+
+def test_a_job_has_the_band_of_the_part_that_asks_for_it():
+    """The roll ends first and again 400 h later, the chain between; what is kept has its band too."""
+    chain = PartNow("chain", 1000.0, 700.0, low=250.0, high=350.0)
+    roll = PartNow("roll", 400.0, 300.0, low=50.0, high=200.0)
+    wheel = PartNow("wheel", 9000.0, 0.0, low=5000.0, high=12000.0)
+    parts = (chain, roll, wheel)
+    jobs = replacements(parts, 500.0, None)
+    assert [(job.hours, job.parts, job.low, job.high) for job in jobs[:1]] == [
+        (100.0, ("chain", "roll"), 50.0, 200.0)
+    ]
+    (kept,) = kept_parts(parts, jobs)
+    assert (kept.low, kept.high) == (5000.0, 12000.0)

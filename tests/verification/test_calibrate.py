@@ -15,6 +15,7 @@ import wearsim
 from tests.drives import FAST_WRAP, changed
 from wearsim.errors import CaseError
 from wearsim.geometry.profile_points import Profile
+from wearsim.readings.dated_rows import ServiceTime
 from wearsim.readings.relubrications import RelubricationLog
 from wearsim.study.calibrate import history_interpolation as blend
 from wearsim.study.calibrate import model as calibrations
@@ -57,8 +58,11 @@ def once(monkeypatch):
         return known[key]
 
     monkeypatch.setattr(blend, "simulate", simulate)
-    nothing = RelubricationLog("", "time_hours", 0, (), 0.0)
-    monkeypatch.setattr(calibrations, "read_readings", lambda rows, case: (rows, nothing))
+    nothing, since_new = (
+        RelubricationLog("", "time_hours", 0, (), 0.0, 0.0),
+        ServiceTime("time_hours", 1.0, None, 0.0),
+    )
+    monkeypatch.setattr(calibrations, "read_readings", lambda rows, case: (rows, nothing, since_new))
 
 
 def readings(rows, scans=(), kind=None):
@@ -92,7 +96,7 @@ class Bench:
         path = self.folder / "readings.csv"
         lines = [",".join("" if cell is None else f"{cell}" for cell in row) for row in rows]
         head = "time_hours,quantity,value,error,arc_length_mm"
-        path.write_text("\n".join([head, *lines]) + "\n")
+        path.write_text("\n".join([head, "0,new,,,", *lines]) + "\n")
         return calibrate(self.case, path, overrides, options)
 
 

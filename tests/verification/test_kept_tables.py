@@ -1,5 +1,7 @@
 """Readings as people keep them give the same answer as by hours, millimetres and decimal points."""
 
+from datetime import date, timedelta
+
 import pytest
 
 import wearsim
@@ -13,6 +15,9 @@ PLAIN = "time_hours,quantity,value,links,error\n0,new,,,\n512,chain_length_mm,12
 """100 links of 12.7 mm are 1270 mm when new."""
 
 HEAD = "distance_km,quantity,value,links,error\n"
+
+
+OILED = {"lubrication": {"lasts_hours": 300, "dry_factor": 2}}
 
 
 def case(**changes):
@@ -64,8 +69,48 @@ def test_days_are_read_in_the_form_that_fits_them_all(state):
 
 
 def test_a_day_that_may_be_two_is_not_guessed(state):
-    with pytest.raises(wearsim.CaseError, match=r"2: date: 1/2/2026 may be day/month/year or month/day/year"):
+    with pytest.raises(
+        wearsim.CaseError, match=r"2: date: may be day/month/year or month/day/year.*1/2/2026"
+    ):
         state("date,quantity,value\n1/2/2026,new,\n3/4/2026,elongation_percent,0.6\n")
+
+
+def test_days_of_other_forms_are_read_where_each_has_one_meaning(state):
+    """59, 64 and 84 days after the first of January, as points, as year-month-day and as 26 March."""
+    rows = "01.01.2026;new;\n01.03.2026;relubrication;\n2026-03-06;elongation_percent;0,6\n"
+    found = state(f"date;quantity;value\n{rows}3/26/2026;elongation_percent;0,75\n", case(**OILED))
+    assert [one.hours for one in found.log.readings] == [64 * 8, 84 * 8]
+    assert found.log.relubrications.hours == (59 * 8,)
+
+
+def test_the_days_of_a_log_come_back_as_they_were_given(state):
+    """0.7 h a day are no round number of bits: days times hours over hours fall short of a day in ten."""
+    days = [(date(2026, 1, 1) + timedelta(days=number)).isoformat() for number in range(1, 100)]
+    rows = "\n".join(f"{day},gauge_percent,1,go" for day in days)
+    found = state(
+        f"date,quantity,value,result\n2026-01-01,new,,\n{rows}\n", case(service={"hours_per_day": 0.7})
+    )
+    assert [found.day(one.hours) for one in found.log.readings] == days
+
+
+@pytest.mark.parametrize(
+    ("odd", "wrong"),
+    [
+        ("31.04.2026", ["4: date: must be a day, day.month.year as others here or such as 2026-03-31"]),
+        ("05/04/2026", []),
+        ("05/06/2026", ["4: date: may be day/month/year or month/day/year: write year-month-day"]),
+    ],
+)
+def test_only_the_odd_day_is_named(state, odd, wrong):
+    """The fifth of April comes before the tenth, so 05/04 is May; 05/06 may be June or May, both after it."""
+    rows = f"01.01.2026,new,\n10.04.2026,elongation_percent,0.6\n{odd},elongation_percent,0.7\n"
+    try:
+        state(f"date,quantity,value\n{rows}20.06.2026,elongation_percent,0.9\n")
+        said = []
+    except wearsim.CaseError as error:
+        said = str(error).splitlines()
+    assert len(said) == len(wrong)
+    assert all(text in line for text, line in zip(wrong, said, strict=True))
 
 
 def test_a_mark_of_thousands_is_not_taken_for_a_decimal_point(state):
@@ -113,6 +158,16 @@ def test_a_new_chain_on_an_older_machine_begins_its_own_days(state):
     assert [one.hours for one in state(text, dated).log.readings] == [64 * 8]
 
 
+def test_a_meter_that_no_row_begins_is_believed_aloud(state):
+    """16 360 km at 30 km/h are 545.3 h; with the row 'new' 15 360 km are 512 h, and nothing is to be said."""
+    read = f"{HEAD}16360,chain_length_mm,1277.62,100,0.5\n"
+    (text,) = (one for one in state(read).warnings if "no row 'new'" in one)
+    assert "distance_km was when the part was new" in text
+    assert "to have run 545.3 h at the first reading" in text
+    for told in (KEPT["an odometer"], KEPT["days with points"], PLAIN):
+        assert not [one for one in state(told).warnings if "no row 'new'" in one]
+
+
 def test_times_before_the_odometer_of_the_new_chain_are_named(state):
     with pytest.raises(wearsim.CaseError, match="must be a number of at least 1000, as in the row 'new'"):
         state("distance_km,quantity,value\n1000,new,\n900,elongation_percent,0.6\n")
@@ -130,4 +185,7 @@ def test_calibrate_reads_the_same_tables(tmp_path):
         + ";chain_length_inch;50,3;100;0,5 mm\n"
     )
     (one,), (other,) = (wearsim.calibrate(case(), path).found.values for path in (plain, kept))
+    kept.write_text("time_hours,quantity,value,error\n512,elongation_percent,0.6,0.1\n")
+    (text,) = (text for text in wearsim.calibrate(case(), kept).found.warnings if "no row 'new'" in text)
+    assert "to have run 512 h at the first reading" in text
     assert other.value == pytest.approx(one.value, rel=1e-9)

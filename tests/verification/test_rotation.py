@@ -37,9 +37,9 @@ def test_each_chain_has_its_own_hours_and_all_one_rate(state):
     found = state(*LOG)
     assert found.log.rotation.hours == {"A": 500.0, "B": 150.0}
     assert (found.log.rotation.mounted, found.log.today, found.log.machine) == ("B", 150.0, 650.0)
-    grown, left = found.of_chain("A")
-    assert (grown.middle, left.middle) == (pytest.approx(0.6, rel=1e-4), pytest.approx(2000.0, rel=1e-4))
-    assert found.of_chain("B")[0].middle == pytest.approx(0.18, rel=1e-2)
+    assert found.chains["A"].elongation[2] == pytest.approx(0.6, rel=1e-4)
+    assert found.chains["A"].left[2] == pytest.approx(2000.0, rel=1e-4)
+    assert found.chains["B"].elongation[2] == pytest.approx(0.18, rel=1e-4)
     assert found.of("remaining_hours").middle == pytest.approx(2350.0, rel=1e-4)
     assert found.of("remaining_hours_of_all").middle == pytest.approx(4350.0, rel=1e-4)
 
@@ -52,8 +52,33 @@ def test_the_last_day_is_that_of_all_chains(state):
 
 def test_a_worn_chain_waits_for_the_others(state):
     found = state(*[row.replace("0.6", "3.6") for row in LOG])
-    assert found.of_chain("A")[1].middle == 0.0
-    assert found.of_chain("B")[1].middle > 0.0
+    assert found.chains["A"].left[2] == 0.0
+    assert found.chains["B"].left[2] > 0.0
+
+
+OILED = changed(CASE, {"lubrication": {"lasts_hours": 100, "dry_factor": 2, "price_per_application": 4}})
+EACH_OILED = [
+    "1000,new,,,,,A",
+    "1150,relubrication,,,,,",
+    "1300,new,,,,,B",
+    "1400,relubrication,,,,,A",
+    "1450,relubrication,,,,,B",
+    "1600,mounted,,,,,A",
+    "1750,relubrication,,,,,",
+    "1900,elongation_percent,0.8,,,1e-6,A",
+]
+"""A is oiled after 150, 300 (while B runs) and 450 of its 600 h, B after 150 of 300 h."""
+
+
+def test_a_relubrication_is_of_its_chain_or_of_the_one_on_the_drive(state):
+    """150 h with oil for 100 wear as 100 + 2*50 = 200: A has 0.8 % for 800, B 400, and 3 % come in 2250 h."""
+    found = state(*EACH_OILED, case=OILED)
+    logs = found.log.lubricated
+    assert (logs["A"].hours, logs["B"].hours) == ((150.0, 300.0, 450.0), (150.0,))
+    assert {log.logged_interval for log in logs.values()} == {150.0}
+    assert found.chains["B"].elongation[2] == pytest.approx(0.4, rel=1e-4)
+    assert found.chains["A"].left[2] == pytest.approx(2250.0 - 600.0, rel=1e-4)
+    assert found.chains["B"].left[2] == pytest.approx(2250.0 - 300.0, rel=1e-4)
 
 
 def test_a_chain_that_shrinks_is_named_but_not_one_beside_another(state):
@@ -71,7 +96,8 @@ def test_a_chain_that_shrinks_is_named_but_not_one_beside_another(state):
         (["1650,elongation_percent,0.6,,,,"], ":8: chain: must name the chain of every row"),
         (["1650,mounted,,,,,C"], ":8: chain: 'C' must have a row 'new' first"),
         (["1650,new,,,,,A"], ":8: chain: 'A' was new before"),
-        (["1650,relubrication,,,,,A"], "must be left out of a log of chains in rotation"),
+        (["1650,relubrication,,,,,C"], ":8: chain: 'C' must have a row 'new' first"),
+        (["1650,relubrication,5,,,,A"], "must be empty for relubrication (got '5')"),
         (["1650,mounted,5,,,,A"], f"must be empty for {MOUNTED} (got '5')"),
         (["1640,mounted,,,,,A"], "must not go backwards"),
     ],
@@ -95,5 +121,9 @@ def test_the_answer_lists_the_chains():
     assert found.chains["used_hours"].tolist() == [500.0, 150.0]
     assert found.summary()["chains"][0]["chain"] == "A"
     text = " ".join(found.text.split())
+    oiled = [dict(zip(HEAD.strip().split(","), row.split(","), strict=True)) for row in EACH_OILED]
+    again = wearsim.remaining(OILED, readings=oiled)
+    assert again.summary()["relubrications"] == 4
+    assert "4 times, every 150 h in the mean" in " ".join(again.text.split())
     assert "of chain B, which is on the drive, after 150 h" in text
     assert "Chain A 0.6 % longer after 500 h, 2 000 h left" in text

@@ -50,7 +50,7 @@ def test_calibrate_takes_a_size_as_the_same_decrease(small, tmp_path):
     pytest.importorskip("pandera", reason="pandera is not installed")
     path = tmp_path / "log.csv"
     path.write_text(f"time_hours,quantity,value,error\n500,size_over_pins_mm,{NEW - 0.5},0.02\n")
-    ((reading,), _) = read_readings(path, small)
+    ((reading,), *_) = read_readings(path, small)
     expected = from_size(small, SingleReading(OVER_PINS, NEW - 0.5, 0.02, 100.0), None)
     assert (reading.quantity, reading.value) == (OVER_PINS, pytest.approx(expected.value, abs=1e-9))
 

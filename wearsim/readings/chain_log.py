@@ -19,26 +19,19 @@ from wearsim.readings.chain_readings import (
     odd_error,
     side_of_mark,
 )
-from wearsim.readings.dated_rows import NEW, DatedRows, ServiceTime, read_dated_rows, service_time
+from wearsim.readings.dated_rows import CHAINS, NEW, DatedRows, ServiceTime, read_dated_rows, service_time
 from wearsim.readings.kept_tables import DATE, number
-from wearsim.readings.relubrications import (
-    EVENTS,
-    RELUBRICATION,
-    RelubricationLog,
-    event_faults,
-    relubrication_log,
-)
+from wearsim.readings.relubrications import EVENTS, RelubricationLog, event_faults, late_new_faults
 from wearsim.readings.rotation import (
-    CHAINS,
     MOUNTED,
     Rotation,
     has_rotation,
     hours_of_chains,
     of_chain,
+    relubrications_of_chains,
     rotation_faults,
 )
 
-_WORDS = (NEW, *READINGS, RELUBRICATION)
 _SPROCKET = "sprocket"
 """Column that names the sprocket of a row, empty where it is of the chain."""
 
@@ -57,22 +50,41 @@ class ChainLog:
     time: ServiceTime
     new: NewLength
     readings: tuple[ChainReading, ...]
-    relubrications: RelubricationLog
+    lubricated: Mapping[str, RelubricationLog]  # of each chain by its name; of a chain alone by ""
     # when sprockets that rows name were new, by the running time since the (first) chain was new [h]
     sprockets: Mapping[str, float]
     rotation: Rotation | None = None  # of several chains by turns
 
     @property
+    def mounted(self) -> str:
+        """Name of the chain that is on the drive at the last row; empty of a chain alone."""
+        return "" if self.rotation is None else self.rotation.mounted
+
+    @property
+    def relubrications(self) -> RelubricationLog:
+        """Those of the chain that is on the drive, by its running time."""
+        return self.lubricated[self.mounted]
+
+    @property
+    def times_relubricated(self) -> int:
+        """How many times all chains were relubricated."""
+        return sum(len(log.hours) for log in self.lubricated.values())
+
+    @property
+    def schedule(self) -> dict[str, Any]:
+        """Keys of [lubrication] that say the same of the drive; of several chains the interval of all."""
+        of_chain = self.relubrications
+        return of_chain.schedule if self.rotation is None else {"interval_hours": of_chain.logged_interval}
+
+    @property
     def today(self) -> float:
-        """Running time of the chain, of several the one that is mounted, at the last row [h]."""
-        if self.rotation is not None:
-            return self.rotation.hours[self.rotation.mounted]
+        """Running time of the chain, of several the one that is on the drive, at the last row [h]."""
         return self.relubrications.today
 
     @property
     def machine(self) -> float:
         """Running time of the drive since the (first) chain was new [h]."""
-        return self.relubrications.today if self.rotation is None else self.rotation.machine
+        return self.today if self.rotation is None else self.rotation.machine
 
     @property
     def odd_links(self) -> bool:
@@ -105,16 +117,17 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
     time = service_time(table, inputs)
     in_turn = has_rotation(table)
     faults = [*_bad_cells(table, time, in_turn), *_backwards(table, time)]
-    faults += [*(rotation_faults(table, time) if in_turn else event_faults(table, time))]
+    faults += [*event_faults(table, time, _events(in_turn))]
+    faults += [*(rotation_faults(table) if in_turn else late_new_faults(table))]
     faults += _bad_sprockets(of_sprockets, table, time)
     if faults:
         raise CaseError(sorted(faults, key=lambda fault: fault.line))
-    rotation, own = hours_of_chains(table, time) if in_turn else (None, _hours(table, time))
+    rotation, own = hours_of_chains(table, time) if in_turn else (None, _alone(table, time))
     chains = {cells.get(CHAINS, "") for _, cells in table.rows}
     new = {name: new_length(of_chain(table, name), pitch) for name in chains}
     readings = tuple(
         _reading(line, hours, cells, new[cells.get(CHAINS, "")], usual_error)
-        for hours, (line, cells) in zip(own, table.rows, strict=True)
+        for (_, hours), (line, cells) in zip(own, table.rows, strict=True)
         if cells["quantity"] in READINGS
     )
     if not readings:
@@ -125,7 +138,7 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
         time=time,
         new=next((one for one in new.values() if one.measured), next(iter(new.values()))),
         readings=readings,
-        relubrications=relubrication_log(table, time),
+        lubricated=relubrications_of_chains(table, own, rotation.hours if rotation else {"": own[-1][1]}),
         sprockets={cells[_SPROCKET]: time.hours(cells[table.time]) for _, cells in of_sprockets},
         rotation=rotation,
     )
@@ -133,13 +146,18 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
     return log
 
 
-def _hours(table: DatedRows, time: ServiceTime) -> list[float]:
-    return [time.hours(cells[table.time]) for _, cells in table.rows]
+def _events(in_turn: bool) -> tuple[str, ...]:
+    return (*EVENTS, MOUNTED) if in_turn else EVENTS
+
+
+def _alone(table: DatedRows, time: ServiceTime) -> list[tuple[str, float]]:
+    """Return no name and the running hours of each row of the log of a chain alone."""
+    return [("", time.hours(cells[table.time])) for _, cells in table.rows]
 
 
 def _bad_cells(table: DatedRows, time: ServiceTime, in_turn: bool) -> Iterator[Fault]:
     """Give every cell that cannot be in a row that is a reading."""
-    words = (*_WORDS, MOUNTED) if in_turn else _WORDS
+    words = tuple(dict.fromkeys((NEW, *READINGS, *_events(in_turn))))
     rules: Rules = {
         "quantity": (lambda text: text in words, f"must be one of {', '.join(words)}"),
         "error": (
@@ -149,7 +167,7 @@ def _bad_cells(table: DatedRows, time: ServiceTime, in_turn: bool) -> Iterator[F
     }
     for line, cells in table.rows:
         quantity = cells["quantity"]
-        if quantity in (*EVENTS, *((MOUNTED,) if in_turn else ())):
+        if quantity in _events(in_turn):
             continue
         wrong = time.fault(cells[table.time])
         if wrong:

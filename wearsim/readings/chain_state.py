@@ -1,6 +1,7 @@
 """The present state of a chain, and what is left of its life, from all that was read."""
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
@@ -24,9 +25,10 @@ from wearsim.readings.contradictions import (
     contradiction_warnings,
     contradictions,
 )
-from wearsim.readings.dated_rows import day_after
 from wearsim.readings.posterior import LEVELS, FactorPosterior, FactorPrior, factor_posterior
 from wearsim.readings.relubrications import relubricated
+from wearsim.result.lives import day_after
+from wearsim.wear.mate_clock import LubricatedClock
 
 _BEYOND, _POINTS = 1.1, 400
 """Part of the latest end of the life up to which the elongation is told, and at how many times."""
@@ -45,6 +47,15 @@ class Quantiles:
         return self.values[len(LEVELS) // 2]
 
 
+@dataclass(frozen=True)
+class ChainNow:
+    """Where one chain stands, at `LEVELS`."""
+
+    run: float  # running time [h]
+    elongation: tuple[float, ...]  # [%]
+    left: tuple[float, ...]  # [h]
+
+
 @dataclass(frozen=True, eq=False)
 class ChainState:
     """What readings say about a chain."""
@@ -57,6 +68,7 @@ class ChainState:
     course: Vector  # elongation then with the case's own coefficient [%]
     posterior: FactorPosterior  # of the coefficient over the case's
     quantiles: tuple[Quantiles, ...]  # of everything that is told
+    chains: Mapping[str, ChainNow]  # by their names; a chain alone by ""
     assumptions: tuple[str, ...]
     warnings: tuple[str, ...]
 
@@ -67,16 +79,10 @@ class ChainState:
             return ""
         return day_after(start, hours / service["hours_per_day"])
 
-    def of_chain(self, name: str) -> tuple[Quantiles, Quantiles]:
-        """Return elongation now [%] and hours left of a chain in rotation."""
-        assert self.log.rotation is not None
-        run, lives = self.log.rotation.hours[name], self.of("life_hours").values
-        grown = float(np.interp(run, self.course_hours, self.course))
-        left = [max(one - run, 0.0) for one in lives if isinstance(one, float)]
-        return (
-            Quantiles("elongation_percent", tuple(grown * one for one in self.posterior.quantiles)),
-            Quantiles("remaining_hours", tuple(left)),
-        )
+    @property
+    def factor(self) -> float:
+        """Median of the coefficient over the case's."""
+        return self.posterior.quantiles[len(LEVELS) // 2]
 
     def of(self, name: str) -> Quantiles:
         """Return the quantiles of a quantity."""
@@ -111,40 +117,63 @@ def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -
     drive = wrap_of(first)
     limit = 100.0 * drive.joint.elongation_limit
     log = read_chain_log(path, first.inputs, drive.chain.pitch, usual_error)
-    return _state(first, relubricated(case, log.relubrications), log, limit)
+    as_logged = {name: relubricated(case, its) for name, its in log.lubricated.items()}
+    return _state(first, as_logged, log, limit)
 
 
-def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainState:
-    """Return what a log says, by the clock of the wear as it ran and goes on."""
-    cycles_per_chain = wrap_of(as_logged).contact(as_logged).cycles_per_mate
-    clock, per_hour = chain_clock(as_logged), as_logged.cycles_per_hour
-    today = log.today
-    rate = limit / cycles_per_chain
-    expected = tuple(rate * clock.steady_cycles(one.hours * per_hour) for one in log.readings)
-    band = chain_band(as_logged)
-    posterior = factor_posterior(log.readings, expected, FactorPrior(*chain_prior(as_logged)))
+@dataclass(frozen=True)
+class _Growth:
+    """How a chain grows with the case's own coefficient, relubricated as it was logged."""
+
+    clock: LubricatedClock
+    per_hour: float  # cycles
+    cycles: float  # of steady wear to the limit
+    limit: float  # [%]
+
+    @classmethod
+    def of(cls, case: Case, limit: float) -> "_Growth":
+        cycles = wrap_of(case).contact(case).cycles_per_mate
+        return cls(chain_clock(case), case.cycles_per_hour, cycles, limit)
+
+    def elongation(self, hours: float) -> float:
+        """Return the elongation after so many hours [%]."""
+        return self.limit / self.cycles * self.clock.steady_cycles(hours * self.per_hour)
+
+    def lives(self, factors: Vector) -> tuple[float, ...]:
+        """Return the lives by factors on the coefficient [h]."""
+        return tuple((self.clock.running_cycles(self.cycles / factors) / self.per_hour).tolist())
+
+
+def _state(case: Case, as_logged: Mapping[str, Case], log: ChainLog, limit: float) -> ChainState:
+    """Return what a log says, by the clocks of the wear of its chains as they ran and go on."""
+    growth = {name: _Growth.of(one, limit) for name, one in as_logged.items()}
+    mounted, now = growth[log.mounted], as_logged[log.mounted]
+    expected = tuple(growth[one.chain].elongation(one.hours) for one in log.readings)
+    band = chain_band(now)
+    posterior = factor_posterior(log.readings, expected, FactorPrior(*chain_prior(now)))
     factors = np.array(posterior.quantiles)
-    lives = tuple((clock.running_cycles(cycles_per_chain / factors[::-1]) / per_hour).tolist())
+    lives = mounted.lives(factors[::-1])
     excluding = contradictions(
         [_beside(one, posterior.nearest * at) for one, at in zip(log.readings, expected, strict=True)]
     )
     _check_within(log, limit, excluding, lives[len(LEVELS) // 2])
-    now = rate * clock.steady_cycles(today * per_hour) * factors
-    hours = np.linspace(0.0, _BEYOND * max(lives[-1], today), _POINTS)
+    chains = {name: _now(one, log.lubricated[name].today, factors) for name, one in growth.items()}
+    hours = np.linspace(0.0, _BEYOND * max(lives[-1], log.today), _POINTS)
     return ChainState(
         case=case,
         log=log,
         limit=limit,
         expected=expected,
         course_hours=hours,
-        course=rate * np.array([clock.steady_cycles(float(one) * per_hour) for one in hours]),
+        course=np.array([mounted.elongation(float(one)) for one in hours]),
         posterior=posterior,
         quantiles=(
-            *_left(case, log, lives),
-            Quantiles("elongation_percent", tuple(now.tolist())),
+            *_left(case, log, {name: one.left for name, one in chains.items()}),
+            Quantiles("elongation_percent", chains[log.mounted].elongation),
             Quantiles("life_hours", lives),
             Quantiles("coefficient_factor", posterior.quantiles),
         ),
+        chains=chains,
         assumptions=(*_assumptions(log, band), *case.assumptions),
         warnings=(
             *contradiction_warnings(excluding),
@@ -154,16 +183,21 @@ def _state(case: Case, as_logged: Case, log: ChainLog, limit: float) -> ChainSta
     )
 
 
-def _left(case: Case, log: ChainLog, lives: tuple[float, ...]) -> Iterator[Quantiles]:
+def _now(growth: _Growth, run: float, factors: Vector) -> ChainNow:
+    """Return the state of a chain that has run so long."""
+    grown = tuple((growth.elongation(run) * factors).tolist())
+    return ChainNow(run, grown, tuple(max(one - run, 0.0) for one in growth.lives(factors[::-1])))
+
+
+def _left(case: Case, log: ChainLog, of_chains: Mapping[str, tuple[float, ...]]) -> Iterator[Quantiles]:
     """Give what is left from the last row on, in the measures that the case knows."""
-    left = tuple(max(one - log.today, 0.0) for one in lives)
+    left = of_all = of_chains[log.mounted]
     service = case.inputs.get("service") or {}
     yield Quantiles("remaining_hours", left)
     if "km_per_hour" in service:
         yield Quantiles("remaining_km", tuple(service["km_per_hour"] * one for one in left))
-    of_all = left
     if log.rotation is not None:
-        of_all = tuple(sum(max(one - run, 0.0) for run in log.rotation.hours.values()) for one in lives)
+        of_all = tuple(map(math.fsum, zip(*of_chains.values(), strict=True)))
         yield Quantiles("remaining_hours_of_all", of_all)
     start = _start(case, log)
     if start is not None:
@@ -206,9 +240,9 @@ def _check_within(log: ChainLog, limit: float, excluding: Sequence[Contradiction
 
 
 def _assumptions(log: ChainLog, band: WearBand) -> Iterator[str]:
-    if log.relubrications.hours:
+    if log.times_relubricated:
         yield (
-            f"the load stays as it was, and the chain is relubricated every "
+            f"the load stays as it was, and the chain on the drive is relubricated every "
             f"{log.relubrications.mean_interval:.4g} h as before, in place of what [lubrication] says"
         )
     else:
@@ -247,6 +281,7 @@ def _warnings(
             f"the readings are {posterior.scale:.2g} times as far from one line as their errors say: check "
             "them, the load and the lubrication; their errors are taken as so much larger"
         )
+    yield from log.time.warnings(log.readings[0].hours)
     yield from log.relubrications.warnings()
     if lives[0] <= log.today:
         yield "the limit may already be reached: measure again, with a smaller error"

@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from datetime import date, timedelta
+from datetime import date
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from wearsim.errors import CaseError, Fault
 from wearsim.files import given_text
 from wearsim.input.csv_tables import header_faults
+from wearsim.quantities import grouped
 from wearsim.readings.day_format import iso_days
 from wearsim.readings.kept_tables import (
     DATE,
@@ -37,6 +38,9 @@ TIMES = (HOURS, KM, DATE)
 NEW = "new"
 """Row of the time at which a part was new."""
 
+CHAINS = "chain"
+"""Column that names the chain of a row, of several in rotation."""
+
 _MOST_HOURS = 1e9
 
 
@@ -57,7 +61,9 @@ class ServiceTime:
     column: str  # one of `TIMES`
     hours_each: float  # running hours of a km or a day; 1 for hours
     start: date | None  # day on which the part that was measured was new; None where none is known
-    zero: float = 0.0  # what an odometer or hour meter showed when the part was new [h]
+    zero: float | None = (
+        None  # what an odometer or hour meter showed when the part was new [h]; None: not told
+    )
 
     def hours(self, text: str) -> float:
         """Return the running hours of a cell; nan where it holds no time.
@@ -68,7 +74,7 @@ class ServiceTime:
         24.0
         """
         if self.column != DATE:
-            return number(text) * self.hours_each - self.zero
+            return number(text) * self.hours_each - (self.zero or 0.0)
         day = _day(text)
         return math.nan if day is None or self.start is None else (day - self.start).days * self.hours_each
 
@@ -94,20 +100,24 @@ class ServiceTime:
         if self.column == DATE:
             return "a day such as 2026-03-31"
         since = f", as in the row {NEW!r}" if self.zero else ""
-        return f"a number of at least {self.zero / self.hours_each:g}{since}"
+        return f"a number of at least {(self.zero or 0.0) / self.hours_each:g}{since}"
 
+    def warnings(self, first: float) -> Iterator[str]:
+        """Say of how many hours at the first reading a meter is believed that no row begins.
 
-def day_after(start: date, days: float) -> str:
-    """Return the day so many days later; empty where no calendar goes so far.
-
-    Examples
-    --------
-    >>> day_after(date(2026, 3, 30), 2.9)
-    '2026-04-01'
-    """
-    if not days <= (date.max - start).days:
-        return ""
-    return (start + timedelta(days=int(days))).isoformat()
+        Examples
+        --------
+        >>> [text[:69] for text in ServiceTime(KM, 1 / 30, None).warnings(500.0)]
+        ["no row 'new' says what distance_km was when the part was new, so that"]
+        >>> list(ServiceTime(KM, 1 / 30, None, zero=0.0).warnings(500.0))
+        []
+        """
+        if self.column != DATE and self.zero is None:
+            yield (
+                f"no row {NEW!r} says what {self.column} was when the part was new, so that it counts from "
+                f"0: the part is taken to have run {grouped(first)} h at the first reading. Where the meter "
+                f"showed more when it was new, put a row {NEW!r} with that above"
+            )
 
 
 def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]) -> DatedRows:
@@ -152,10 +162,12 @@ def _lines(path: Path) -> list[Line]:
 
 def _with_days(rows: Sequence[tuple[int, dict[str, str]]], file: str) -> list[tuple[int, dict[str, str]]]:
     """Return rows with their days as year-month-day."""
-    days, why = iso_days([cells[DATE] for _, cells in rows])
-    if why:
-        line, cells = rows[0]
-        raise CaseError([Fault(f"{cells[DATE]} {why}", DATE, file, line)])
+    days, wrong = iso_days([cells[DATE] for _, cells in rows])
+    if wrong:
+        named = [(why, *rows[place]) for place, why in sorted(wrong.items())]
+        raise CaseError(
+            [Fault(f"{why} (got {cells[DATE]!r})", DATE, file, line) for why, line, cells in named]
+        )
     return [(line, {**cells, DATE: day}) for (line, cells), day in zip(rows, days, strict=True)]
 
 
@@ -171,7 +183,7 @@ def service_time(table: DatedRows, inputs: Mapping[str, Any]) -> ServiceTime:
     if table.time != DATE:
         each = 1.0 / _key(table, service, "km_per_hour") if table.time == KM else 1.0
         zero = number(begun) * each
-        return ServiceTime(table.time, each, None, zero if 0.0 <= zero <= _MOST_HOURS else 0.0)
+        return ServiceTime(table.time, each, None, zero if 0.0 <= zero <= _MOST_HOURS else None)
     each = _key(table, service, "hours_per_day")
     days = (_day(cells[DATE]) for _, cells in table.rows)
     given = date.fromisoformat(service["start_date"]) if "start_date" in service else None

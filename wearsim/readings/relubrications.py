@@ -1,7 +1,7 @@
 """Relubrications as they were logged, and as they go on from there."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,7 +11,7 @@ from wearsim.drive.part_life import case_clock
 from wearsim.errors import CaseError, Fault
 from wearsim.lubrication.model import LubricationInput, RunningWay
 from wearsim.quantities import grouped
-from wearsim.readings.dated_rows import NEW, DatedRows, ServiceTime
+from wearsim.readings.dated_rows import CHAINS, NEW, DatedRows, ServiceTime
 
 RELUBRICATION = "relubrication"
 EVENTS = (NEW, RELUBRICATION)
@@ -35,16 +35,19 @@ class RelubricationLog:
     line: int  # of the first relubrication; 0 without one
     hours: tuple[float, ...]  # running times, rising, those of one day once [h]
     today: float  # running time of the last row of the file [h]
+    # mean time between relubrications, the first counted from the new part, of chains in rotation that of all
+    # of them [h]; 0 where nobody relubricated
+    logged_interval: float
 
     @property
-    def logged_interval(self) -> float:
-        """Mean time between relubrications, the first counted from the new part [h]."""
-        return self.hours[-1] / len(self.hours)
+    def last(self) -> float:
+        """Running time of the last one; 0 without one, as a new part is lubricated [h]."""
+        return self.hours[-1] if self.hours else 0.0
 
     @property
     def is_overdue(self) -> bool:
         """Whether more time has passed since the last one than between them in the mean."""
-        return self.today - self.hours[-1] > self.logged_interval
+        return self.today - self.last > self.logged_interval
 
     @property
     def mean_interval(self) -> float:
@@ -54,7 +57,7 @@ class RelubricationLog:
     @property
     def to_come(self) -> float:
         """Running time of the next one, at the mean interval; today where that is overdue [h]."""
-        return self.today if self.is_overdue else self.hours[-1] + self.mean_interval
+        return self.today if self.is_overdue else self.last + self.mean_interval
 
     @property
     def schedule(self) -> dict[str, Any]:
@@ -63,10 +66,9 @@ class RelubricationLog:
 
     def warnings(self) -> Iterator[str]:
         """Say that a relubrication is overdue."""
-        if self.hours and self.is_overdue:
+        if self.logged_interval and self.is_overdue:
             since, before, then = (
-                grouped(hours)
-                for hours in (self.today - self.hours[-1], self.logged_interval, self.mean_interval)
+                grouped(hours) for hours in (self.today - self.last, self.logged_interval, self.mean_interval)
             )
             yield (
                 f"the last relubrication was {since} h ago, but they came every {before} h before: the "
@@ -75,35 +77,48 @@ class RelubricationLog:
             )
 
 
-def event_faults(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
+def event_faults(table: DatedRows, time: ServiceTime, events: Sequence[str] = EVENTS) -> Iterator[Fault]:
     """Give every cell that cannot be in rows that are no readings."""
-    for number, (line, cells) in enumerate(table.rows):
+    for line, cells in table.rows:
         event = cells["quantity"]
-        if event not in EVENTS:
+        if event not in events:
             continue
-        known = (table.time, "quantity", *(_BASELINE if event == NEW else ()))
+        known = (table.time, "quantity", CHAINS, *(_BASELINE if event == NEW else ()))
         for name, text in cells.items():
             if name not in known and text:
                 yield Fault(f"must be empty for {event} (got {text!r})", name, table.file, line)
         wrong = time.fault(cells[table.time])
         if wrong:
             yield Fault(wrong, table.time, table.file, line)
-        elif event == NEW and number:
+
+
+def late_new_faults(table: DatedRows) -> Iterator[Fault]:
+    """Give the rows ``new`` below others, where a table is of one part."""
+    for line, cells in table.rows[1:]:
+        if cells["quantity"] == NEW:
             text = f"{NEW} must be the first row: begin a file for each part"
             yield Fault(text, "quantity", table.file, line)
 
 
-def relubrication_log(table: DatedRows, time: ServiceTime) -> RelubricationLog:
-    """Return the relubrications of a table whose cells are checked."""
-    rows = [(time.hours(cells[table.time]), line, cells["quantity"]) for line, cells in table.rows]
-    relubricated = sorted((hours, line) for hours, line, quantity in rows if quantity == RELUBRICATION)
+def relubrication_log(table: DatedRows, hours: Sequence[float]) -> RelubricationLog:
+    """Return the relubrications of a table whose cells are checked, from the running time of each row."""
+    rows = [
+        (at, line) for at, (line, cells) in zip(hours, table.rows, strict=True) if is_relubrication(cells)
+    ]
+    times = tuple(sorted({at for at, _ in rows}))
     return RelubricationLog(
         file=table.file,
         column=table.time,
-        line=relubricated[0][1] if relubricated else 0,
-        hours=tuple(sorted({hours for hours, _ in relubricated})),
-        today=max((hours for hours, *_ in rows), default=0.0),
+        line=min(rows)[1] if rows else 0,
+        hours=times,
+        today=max(hours, default=0.0),
+        logged_interval=times[-1] / len(times) if times else 0.0,
     )
+
+
+def is_relubrication(cells: Mapping[str, str]) -> bool:
+    """Whether a row says that a part was relubricated."""
+    return cells["quantity"] == RELUBRICATION
 
 
 def relubricated(case: Case | DriveCase, log: RelubricationLog) -> Case:
@@ -117,7 +132,7 @@ def relubricated(case: Case | DriveCase, log: RelubricationLog) -> Case:
         The case does not know what a relubrication does, or they are too many to be meant.
     """
     first = case.chain_case
-    if not log.hours:
+    if not log.hours and not log.logged_interval:
         return first
     given = _as_logged(case, first, log)
     going_on = replace(given, at_hours=(*log.hours, log.to_come), interval=RunningWay(log.mean_interval))
@@ -141,11 +156,11 @@ def _as_logged(case: Case | DriveCase, first: Case, log: RelubricationLog) -> Lu
             "remove [[lubrication.phase]], or these rows"
         )
         raise _fault(log, "quantity", text)
-    if not log.hours[0] > 0.0:
+    if 0.0 in log.hours:
         text = f"{RELUBRICATION} must be later than 0, as a new part is lubricated: remove the row"
         raise _fault(log, log.column, text)
     try:
-        changed = case.with_({_AT: list(log.hours)})
+        changed = case.with_({_AT: list(log.hours) or [log.to_come]})
     except CaseError as error:
         faults = []
         for fault in error.faults:
@@ -177,10 +192,10 @@ def _fault(log: RelubricationLog, column: str, text: str) -> CaseError:
     return CaseError([Fault(text, column, log.file, log.line)])
 
 
-def relubrication_rows(log: RelubricationLog) -> list[tuple[str, str]]:
-    """Return how often a part was relubricated; nothing where it was not."""
-    if not log.hours:
+def relubrication_rows(log: RelubricationLog, times: int) -> list[tuple[str, str]]:
+    """Return how many times a part, or chains in rotation, were relubricated; nothing where they were not."""
+    if not times:
         return []
-    count = "once" if len(log.hours) == 1 else f"{len(log.hours)} times"
+    count = "once" if times == 1 else f"{times} times"
     every = grouped(log.mean_interval)
     return [("Lubricated", f"{count}, every {every} h in the mean, and so on from here")]

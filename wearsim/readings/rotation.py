@@ -1,14 +1,14 @@
 """Chains in rotation: several chains on one drive by turns, each with running hours of its own."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from wearsim.errors import Fault
-from wearsim.readings.dated_rows import NEW, DatedRows, ServiceTime
-from wearsim.readings.relubrications import RELUBRICATION
+from wearsim.readings.dated_rows import CHAINS, NEW, DatedRows, ServiceTime
+from wearsim.readings.relubrications import RelubricationLog, is_relubrication, relubrication_log
 
-CHAINS, MOUNTED = "chain", "mounted"
-"""Column that names the chain of a row, and the row from which that chain runs again."""
+MOUNTED = "mounted"
+"""Row from which its chain runs again."""
 
 
 @dataclass(frozen=True)
@@ -25,34 +25,27 @@ def has_rotation(table: DatedRows) -> bool:
     return any(cells.get(CHAINS) for _, cells in table.rows)
 
 
-def rotation_faults(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
+def rotation_faults(table: DatedRows) -> Iterator[Fault]:
     """Give what is wrong in the order in which chains come onto the drive."""
     known: set[str] = set()
     for line, cells in table.rows:
         name, quantity = cells.get(CHAINS, ""), cells["quantity"]
-        wrong = time.fault(cells[table.time])
-        if wrong and quantity in (NEW, MOUNTED):
-            yield Fault(wrong, table.time, table.file, line)
-        if quantity == MOUNTED and cells.get("value"):
-            yield Fault(f"must be empty for {MOUNTED} (got {cells['value']!r})", "value", table.file, line)
         if not name:
+            if is_relubrication(cells) and known:
+                continue
             yield Fault("must name the chain of every row, where one row does", CHAINS, table.file, line)
             continue
         if quantity == NEW and name in known:
             yield Fault(f"{name!r} was new before: give a new chain a new name", CHAINS, table.file, line)
         if quantity != NEW and name not in known:
             yield Fault(f"{name!r} must have a row {NEW!r} first", CHAINS, table.file, line)
-        if quantity == RELUBRICATION:
-            text = (
-                f"{RELUBRICATION} must be left out of a log of chains in rotation, as each has its own "
-                "lubricant: [lubrication] of the case holds for all"
-            )
-            yield Fault(text, "quantity", table.file, line)
         known.add(name)
 
 
-def hours_of_chains(table: DatedRows, time: ServiceTime) -> tuple[Rotation, list[float]]:
-    """Return the rotation, and the running hours of its chain at each row.
+def hours_of_chains(table: DatedRows, time: ServiceTime) -> tuple[Rotation, list[tuple[str, float]]]:
+    """Return the rotation, and for each row its chain and the running hours of that.
+
+    A row without a name is of the chain that is on the drive.
 
     Examples
     --------
@@ -63,21 +56,35 @@ def hours_of_chains(table: DatedRows, time: ServiceTime) -> tuple[Rotation, list
     >>> table = DatedRows("log.csv", "time_hours", 1, tuple(enumerate(cells, start=2)))
     >>> rotation, own = hours_of_chains(table, ServiceTime("time_hours", 1.0, None))
     >>> rotation.hours, rotation.mounted, own
-    ({'A': 130.0, 'B': 50.0}, 'A', [0.0, 0.0, 100.0, 130.0])
+    ({'A': 130.0, 'B': 50.0}, 'A', [('A', 0.0), ('B', 0.0), ('A', 100.0), ('A', 130.0)])
     """
     run: dict[str, float] = {}
     mounted, last, own = "", 0.0, []
     for _, cells in table.rows:
-        now, name = time.hours(cells[table.time]), cells[CHAINS]
+        now, name = time.hours(cells[table.time]), cells[CHAINS] or mounted
         if mounted:
             run[mounted] += now - last
         last = now
         if cells["quantity"] in (NEW, MOUNTED):
             mounted = name
-        own.append(run.setdefault(name, 0.0))
+        own.append((name, run.setdefault(name, 0.0)))
     return Rotation(run, mounted, last), own
 
 
 def of_chain(table: DatedRows, name: str) -> DatedRows:
     """Return the rows of one chain."""
     return replace(table, rows=tuple(row for row in table.rows if row[1].get(CHAINS, "") == name))
+
+
+def relubrications_of_chains(
+    table: DatedRows, own: Sequence[tuple[str, float]], run: Mapping[str, float]
+) -> dict[str, RelubricationLog]:
+    """Return the relubrications of each chain by its own running hours, all going on at one mean interval."""
+    logs = {}
+    for name, today in run.items():
+        rows = [(row, hours) for row, (chain, hours) in zip(table.rows, own, strict=True) if chain == name]
+        its = replace(table, rows=tuple(row for row, _ in rows))
+        logs[name] = replace(relubrication_log(its, [hours for _, hours in rows]), today=today)
+    count = sum(len(log.hours) for log in logs.values())
+    interval = sum(log.last for log in logs.values()) / max(count, 1)
+    return {name: replace(log, logged_interval=interval) for name, log in logs.items()}

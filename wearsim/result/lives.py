@@ -147,6 +147,23 @@ def hours(life: Life | LowerBound) -> str:
     return f"> {grouped(life.hours_run)} h"
 
 
+_FULL = 1e-6
+"""Part of a day by which it may be short of full, as hours over hours a day are rounded."""
+
+
+def day_after(start: date, days: float) -> str:
+    """Return the day so many days later, the last one begun; empty where no calendar goes so far.
+
+    Examples
+    --------
+    >>> day_after(date(2026, 3, 30), 2.9)
+    '2026-04-01'
+    """
+    if not days <= (date.max - start).days:
+        return ""
+    return (start + timedelta(days=math.floor(days + _FULL))).isoformat()
+
+
 def service_measures(inputs: Mapping[str, Any], hours: float, before: float = 0.0) -> dict[str, float | str]:
     """Return hours of running in the measures that a case gives factors for.
 
@@ -167,10 +184,9 @@ def service_measures(inputs: Mapping[str, Any], hours: float, before: float = 0.
     if "hours_per_day" in table:
         found["days"] = hours / table["hours_per_day"]
     if "start_date" in table:
-        days = (before + hours) / table["hours_per_day"]
         start = date.fromisoformat(table["start_date"])
-        if days <= (date.max - start).days:
-            found["date"] = (start + timedelta(days=int(days))).isoformat()
+        if day := day_after(start, (before + hours) / table["hours_per_day"]):
+            found["date"] = day
     return found
 
 

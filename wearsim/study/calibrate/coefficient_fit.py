@@ -136,7 +136,9 @@ class CaseFit:
             ),
             warnings=(
                 *warnings_of_readings(self.observations, state),
-                *fit_warnings(self.case, values, correlation, found, self.observations, self.freedom),
+                *fit_warnings(
+                    self.case, values, correlation, found, self.observations, self.freedom, self.options
+                ),
                 *self.time.log.warnings(),
                 *warnings_of_runs(self.settled, self.parameters.predictions.numerical_error, parts),
             ),

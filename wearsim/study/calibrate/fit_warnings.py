@@ -20,7 +20,7 @@ from wearsim.readings.contradictions import (
     contradictions,
 )
 from wearsim.readings.relubrications import RelubricationLog
-from wearsim.readings.teeth_as_read import TEETH_WORDS
+from wearsim.readings.teeth_as_read import TEETH_WORDS, teeth_warning
 from wearsim.runner.scatter import coefficient_key
 from wearsim.study.calibrate.calibration import CalibrationOptions, FittedCoefficient, PartLife
 from wearsim.study.calibrate.least_squares import LeastSquaresFit
@@ -96,8 +96,11 @@ def fit_warnings(
     found: LeastSquaresFit,
     observations: Sequence[Observation],
     freedom: int,
+    options: CalibrationOptions,
 ) -> Iterator[str]:
     """Give what is doubtful about a fit."""
+    if [one.key for one in values] == [JOINT]:
+        yield from teeth_warning(values[0].value / values[0].in_case, options.teeth)
     yield from _identifiability(values, correlation)
     yield from _residuals(found, freedom)
     yield from _outside_bands(case, values)

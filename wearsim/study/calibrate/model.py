@@ -1,6 +1,7 @@
 """Wear coefficients of one drive, and the hours that are left to it, from what was measured."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from wearsim.case.model import Case
@@ -37,14 +38,16 @@ def calibrate(
         with_one_wear(given)
     case = _read_case(given, options.sprocket)
     check_no_running_in(case, "calibrate")
-    readings, log = read_readings(measurements, case)
+    readings, log, time = read_readings(measurements, case)
     if isinstance(given, DriveCase) and not options.sprocket:
         check_of_chain(readings, str(measurements))
         tables = with_whole_paths(document).data
     else:
         tables = plain_document(document, case).data
     check_readings(case, readings, options, str(measurements))
-    return CaseFit(case, tables, readings, options, LubricatedTime.of(given, log)).calibration()
+    found = CaseFit(case, tables, readings, options, LubricatedTime.of(given, log)).calibration()
+    of_time = time.warnings(min(reading.hours for reading in readings))
+    return replace(found, warnings=(*of_time, *found.warnings))
 
 
 def _read_case(given: Case | DriveCase, sprocket: str) -> Case:

@@ -19,7 +19,13 @@ from wearsim.readings.chain_lengths import new_length
 from wearsim.readings.chain_readings import ELONGATION, GAUGE, LENGTH, chain_cells, elongation_over, odd_error
 from wearsim.readings.dated_rows import DatedRows, ServiceTime, read_dated_rows, service_time
 from wearsim.readings.kept_tables import HOURS, number
-from wearsim.readings.relubrications import EVENTS, RelubricationLog, event_faults, relubrication_log
+from wearsim.readings.relubrications import (
+    EVENTS,
+    RelubricationLog,
+    event_faults,
+    late_new_faults,
+    relubrication_log,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -59,13 +65,13 @@ class Reading:
         return self.quantity in (ELONGATION, GAUGE)
 
 
-def read_readings(path: Path, case: Case) -> tuple[tuple[Reading, ...], RelubricationLog]:
+def read_readings(path: Path, case: Case) -> tuple[tuple[Reading, ...], RelubricationLog, ServiceTime]:
     """Read measurements and relubrications; [service] of the case turns km and days into hours."""
     whole = read_dated_rows(path, REQUIRED, OPTIONAL)
     time = service_time(whole, case.inputs)
     rows = replace(whole, rows=tuple(row for row in whole.rows if row[1]["quantity"] not in EVENTS))
     table = _table(rows)
-    faults = [*event_faults(whole, time), *_bad_cells(table, _common(time), path)]
+    faults = [*event_faults(whole, time), *late_new_faults(whole), *_bad_cells(table, _common(time), path)]
     for quantity, some in table.groupby("quantity"):
         if quantity in QUANTITIES:
             faults += _bad_cells(some, _of_quantity(str(quantity)), path)
@@ -80,7 +86,11 @@ def read_readings(path: Path, case: Case) -> tuple[tuple[Reading, ...], Relubric
     readings = tuple(
         _counted(one, cells, whole, case) for one, (_, cells) in zip(found, rows.rows, strict=True)
     )
-    return readings, relubrication_log(whole, time)
+    return (
+        readings,
+        relubrication_log(whole, [time.hours(cells[whole.time]) for _, cells in whole.rows]),
+        time,
+    )
 
 
 def _counted(reading: Reading, cells: Mapping[str, str], table: DatedRows, case: Case) -> Reading:

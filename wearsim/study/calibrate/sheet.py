@@ -47,7 +47,7 @@ def calibration_text(found: Calibration, explain: bool = False) -> str:
             f"{found.readings} readings, chi-square {found.chi_square:.4g} with {found.freedom} degrees "
             f"of freedom{widened}",
         ),
-        *starmap(Finding, relubrication_rows(found.relubrications)),
+        *starmap(Finding, relubrication_rows(found.relubrications, len(found.relubrications.hours))),
         *(
             Finding("Moved", f"profile of line {line} by {turn:.3g} rad, {x:.3g} and {y:.3g} mm")
             for line, turn, x, y in found.moves

@@ -14,18 +14,17 @@ from wearsim.runner.scatter import coefficient_key
 
 def drive_as_read(given: Case | DriveCase, state: ChainState, teeth: Teeth) -> Case | DriveCase:
     """Return a case or a drive with the median coefficient of its readings, and relubricated as they say."""
-    first, factor = given.chain_case, state.of("coefficient_factor").middle
-    assert isinstance(factor, float)
+    first, factor = given.chain_case, state.factor
     here = wrap_of(first).referred_here
     changes: dict[str, Any] = {key: factor * value for key, value in here.wear_coefficients.items()}
     changes |= here.wear_settings
     changes["joint.source"] = f"readings in {Path(state.log.file).name}"
     if teeth == "chain":
         changes |= _of_teeth(given, factor)
-    if state.log.relubrications.hours:
+    if state.log.times_relubricated:
         known = first.inputs.get("lubrication") or {}
         changes |= {f"lubrication.{key}": None for key in SCHEDULES if key in known}
-        changes |= {f"lubrication.{key}": value for key, value in state.log.relubrications.schedule.items()}
+        changes |= {f"lubrication.{key}": value for key, value in state.log.schedule.items()}
     return given.with_(changes)
 
 

@@ -1,7 +1,7 @@
 """The next twelve months of a drive from the readings of its chain."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -15,9 +15,8 @@ from wearsim.drive.part_life import simulate
 from wearsim.drive.replacement_rules import Prices
 from wearsim.errors import CaseError, Fault
 from wearsim.readings.chain_state import ChainState, chain_state
-from wearsim.readings.teeth_as_read import TEETH_WORDS, Teeth
-from wearsim.result import Life, LowerBound
-from wearsim.result.ends import CHAIN
+from wearsim.readings.teeth_as_read import TEETH_WORDS, Teeth, teeth_warning
+from wearsim.result.ends import CHAIN, PartEnd
 from wearsim.runner.in_threads import Progress
 from wearsim.study.maintain.as_read import drive_as_read
 from wearsim.study.maintain.year_plan import (
@@ -87,9 +86,9 @@ def year_plan(
     """
     state = chain_state(given, path, error)
     _check_days(state)
-    lives = _lives(drive_as_read(given, state, teeth), progress)
-    _check_names(state, lives)
-    parts = _parts(state, lives)
+    ends = _ends(drive_as_read(given, state, teeth), progress)
+    _check_names(state, ends)
+    parts = _parts(state, ends)
     prices = _of_all_chains(_prices(given), state)
     until = year_of_hours(state.case.inputs["service"]["hours_per_day"])
     jobs = [*replacements(parts, until, prices), *_relubrications(state, until)]
@@ -101,7 +100,7 @@ def year_plan(
         currency=maintenance_of(given.chain_case.inputs).currency or "",
         teeth=teeth,
         jobs=tuple(sorted(jobs, key=lambda job: job.hours)),
-        warnings=(*state.warnings, *_not_known(parts, until)),
+        warnings=(*teeth_warning(state.factor, teeth), *state.warnings, *_not_known(parts, until)),
     )
 
 
@@ -116,9 +115,8 @@ def _check_days(state: ChainState) -> None:
         raise CaseError([Fault(text, "service.start_date", state.case.name)])
 
 
-def _check_names(state: ChainState, lives: Mapping[str, Life | LowerBound]) -> None:
+def _check_names(state: ChainState, known: Iterable[str]) -> None:
     """Raise where a row is of a sprocket that the drive has not."""
-    known = [name for name in lives if name != CHAIN]
     faults = [
         Fault(f"must be one of {', '.join(known)} (got {name!r})", SPROCKET, state.log.file)
         for name in state.log.sprockets
@@ -128,27 +126,38 @@ def _check_names(state: ChainState, lives: Mapping[str, Life | LowerBound]) -> N
         raise CaseError(faults)
 
 
-def _lives(case: Case | DriveCase, progress: Progress) -> Mapping[str, Life | LowerBound]:
-    if isinstance(case, DriveCase):
-        return part_lives(drive_life(case, progress).complete())
-    return {CHAIN: LowerBound(0.0, 0.0), SPROCKET: simulate(case, progress).parts[SPROCKET]}
+def _ends(case: Case | DriveCase, progress: Progress) -> Mapping[str, PartEnd]:
+    """Return what ends each sprocket first, with its band."""
+    if not isinstance(case, DriveCase):
+        result = simulate(case, progress)
+        return {SPROCKET: _end(result.ends, (SPROCKET,), result.parts[SPROCKET].hours_run)}
+    found = drive_life(case, progress).complete()
+    lives = part_lives(found)
+    worn = [wheel for wheel in case.wheels if wheel.parts]
+    return {wheel.name: _end(found.ends, wheel.parts, lives[wheel.name].hours_run) for wheel in worn}
 
 
-def _parts(state: ChainState, lives: Mapping[str, Life | LowerBound]) -> tuple[PartNow, ...]:
+def _end(ends: Iterable[PartEnd], parts: Sequence[str], hours: float) -> PartEnd:
+    return next(end for end in ends if end.part in parts and end.hours == hours)
+
+
+def _parts(state: ChainState, ends: Mapping[str, PartEnd]) -> tuple[PartNow, ...]:
     """Return chain and sprockets as they are on the day of the last row."""
-    today, life, rotation = state.log.machine, state.of("life_hours").middle, state.log.rotation
+    today, new, rotation = state.log.machine, state.log.sprockets, state.log.rotation
+    life = state.of("life_hours").middle
     left = state.of("remaining_hours" if rotation is None else "remaining_hours_of_all").values
     low, _, middle, _, high = (value for value in left if isinstance(value, float))
     assert isinstance(life, float)
     whole = life if rotation is None else life * len(rotation.hours)
     used = today if rotation is None else whole - middle
     chain = PartNow(CHAIN, whole, used, True, low, high)
-    sprockets = [
-        PartNow(name, life.hours_run, today - state.log.sprockets.get(name, 0.0), isinstance(life, Life))
-        for name, life in lives.items()
-        if name != CHAIN
-    ]
-    return (chain, *sprockets)
+    return (chain, *(_sprocket(name, end, today - new.get(name, 0.0)) for name, end in ends.items()))
+
+
+def _sprocket(name: str, end: PartEnd, used: float) -> PartNow:
+    """Return a sprocket with the band of its life; where it outlived its run only the low end is known."""
+    low, high = (math.nan if one is None else max(one - used, 0.0) for one in (end.low, end.high))
+    return PartNow(name, end.life.hours_run, used, end.reached, low, high if end.reached else math.nan)
 
 
 def _prices(given: Case | DriveCase) -> Prices | None:
@@ -173,7 +182,7 @@ def _relubrications(state: ChainState, until: float) -> list[Job]:
     log, given = state.log.relubrications, state.case.lubrication
     if given is None:
         return []
-    if log.hours:
+    if log.logged_interval:
         return relubrications(log.to_come - log.today, log.mean_interval, until, given.application_cost)
     every = given.interval.hours if given.interval is not None else 0.0
     if not every > 0.0:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from wearsim.drive.renewal import SAME
 from wearsim.drive.replacement_rules import Prices
 from wearsim.quantities import DAYS_OF_YEAR
-from wearsim.result.ends import CHAIN
 
 REPLACE, RELUBRICATE, KEEP = "replace", "relubricate", "keep"
 
@@ -37,7 +36,7 @@ class Job:
     job: str  # `REPLACE`, `RELUBRICATE` or `KEEP`
     parts: tuple[str, ...]
     cost: float | None  # None where no price is known
-    # low, high: ends of the hours of a first replacement of the chain; nan where not known
+    # low, high: ends of these hours, 90 % of them between, until the first end of a part; nan where not known
     low: float = math.nan
     high: float = math.nan
     at_least: bool = False  # whether a part that is kept lasts so long at least
@@ -67,14 +66,15 @@ def replacements(parts: Sequence[PartNow], until: float, prices: Prices | None) 
     known = {one.name: one for one in parts if one.worn_out}
     left = {name: one.left for name, one in known.items()}
     shortest = min((one.life for one in known.values()), default=math.inf)
-    first, now, jobs = known.get(CHAIN), 0.0, []
+    now, jobs, renewed = 0.0, list[Job](), set[str]()
     while left and (step := min(left.values())) + now <= until:
         now += step
+        worn = min(left, key=left.__getitem__)
         left = {name: rest - step for name, rest in left.items()}
         due = tuple(name for name, rest in left.items() if _goes(known[name], rest, shortest, prices))
-        ends = (first.low, first.high) if first is not None and CHAIN in due else (math.nan, math.nan)
-        first = None if CHAIN in due else first
+        ends = (math.nan, math.nan) if worn in renewed else (known[worn].low, known[worn].high)
         jobs.append(Job(now, REPLACE, due, _cost(due, prices), *ends))
+        renewed.update(due)
         left |= {name: known[name].life for name in due}
     return jobs
 
@@ -99,7 +99,7 @@ def kept_parts(parts: Sequence[PartNow], jobs: Sequence[Job]) -> Iterator[Job]:
     gone = {name for job in jobs for name in job.parts}
     for one in sorted(parts, key=lambda part: part.left):
         if one.name not in gone:
-            yield Job(one.left, KEEP, (one.name,), 0.0, at_least=not one.worn_out)
+            yield Job(one.left, KEEP, (one.name,), 0.0, one.low, one.high, at_least=not one.worn_out)
 
 
 def relubrications(first: float, interval: float, until: float, cost: float | None) -> list[Job]:

@@ -100,9 +100,15 @@ def parts_table(plan: YearPlan) -> AnswerTable[PartNow]:
             Column("used_hours", lambda one: one.used),
             Column("used_percent", lambda one: used[one.name]),
             Column("remaining_hours", lambda one: one.left if one.worn_out else None),
+            Column("remaining_hours_low", lambda one: _known(one.low)),
+            Column("remaining_hours_high", lambda one: _known(one.high)),
         ],
         plan.parts,
     )
+
+
+def _known(hours: float) -> float | None:
+    return None if math.isnan(hours) else hours
 
 
 def _day(plan: YearPlan, job: Job) -> str | None:
@@ -119,8 +125,10 @@ def _end(plan: YearPlan, hours: float) -> str | None:
 
 
 def _interval(plan: YearPlan, job: Job) -> str | None:
-    low, high = _end(plan, job.low), _end(plan, job.high)
-    return f"{low} to {high or 'beyond the calendar'}" if low else None
+    if math.isnan(job.low):
+        return None
+    low, high = (_end(plan, hours) or "beyond the calendar" for hours in (job.low, job.high))
+    return f"> {low}" if job.at_least else low if low == high else f"{low} to {high}"
 
 
 def year_json(plan: YearPlan) -> dict[str, Any]:

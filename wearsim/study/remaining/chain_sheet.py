@@ -7,13 +7,16 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
 from wearsim.readings.chain_readings import GAUGE, ChainReading
-from wearsim.readings.chain_state import ChainState, Quantiles
+from wearsim.readings.chain_state import ChainNow, ChainState, Quantiles
+from wearsim.readings.posterior import LEVELS
 from wearsim.readings.relubrications import relubrication_rows
 from wearsim.report.answer_table import AnswerTable, Column
 from wearsim.report.text_lines import Finding, answer_text, closing, fenced
 
 _DIGITS = {"elongation_percent": 3, "coefficient_factor": 3}
 """Digits of what is no time."""
+
+_MEDIAN = len(LEVELS) // 2
 
 _WORDS = {
     "remaining_km": ("In service", "{} km"),
@@ -39,7 +42,7 @@ def chain_text(found: ChainState, explain: bool = False) -> str:
         ),
         *_chains(found),
         Finding("Readings", counted_readings(found)),
-        *starmap(Finding, relubrication_rows(found.log.relubrications)),
+        *starmap(Finding, relubrication_rows(found.log.relubrications, found.log.times_relubricated)),
         *closing(found.assumptions, found.warnings, explain),
     ]
     return answer_text(found.case.title, *rows)
@@ -71,7 +74,7 @@ def chain_json(found: ChainState) -> dict[str, Any]:
         "intervals": intervals_table(found).records(),
         "readings": readings_table(found).records(),
         "chains": chains_table(found).records(),
-        "relubrications": len(found.log.relubrications.hours),
+        "relubrications": found.log.times_relubricated,
         "error_scale": found.posterior.scale,
         "assumptions": list(found.assumptions),
         "warnings": list(found.warnings),
@@ -98,26 +101,27 @@ def _chain(found: ChainState) -> str:
 def _chains(found: ChainState) -> list[Finding]:
     """Return where each chain in rotation stands."""
     rows = []
-    for name, run in () if found.log.rotation is None else found.log.rotation.hours.items():
-        grown, left = found.of_chain(name)
-        text = (
-            f"{_shown(grown)[2]} % longer after {grouped(run)} h, {_shown(left)[2]} h left{_intervals(left)}"
-        )
-        rows.append(Finding(f"Chain {name}", text))
+    for name, one in _in_rotation(found):
+        grown, left = Quantiles("elongation_percent", one.elongation), Quantiles("remaining_hours", one.left)
+        after = f"{_shown(grown)[2]} % longer after {grouped(one.run)} h"
+        rows.append(Finding(f"Chain {name}", f"{after}, {_shown(left)[2]} h left{_intervals(left)}"))
     return rows
 
 
-def chains_table(found: ChainState) -> AnswerTable[str]:
+def _in_rotation(found: ChainState) -> list[tuple[str, ChainNow]]:
+    return list(found.chains.items()) if found.log.rotation else []
+
+
+def chains_table(found: ChainState) -> AnswerTable[tuple[str, ChainNow]]:
     """Return a row for each chain in rotation; none of a single chain."""
-    rotation = found.log.rotation
     return AnswerTable(
         [
-            Column("chain", lambda name: name),
-            Column("used_hours", lambda name: rotation.hours[name] if rotation else None),
-            Column("elongation_percent", lambda name: found.of_chain(name)[0].middle),
-            Column("remaining_hours", lambda name: found.of_chain(name)[1].middle),
+            Column("chain", lambda one: one[0]),
+            Column("used_hours", lambda one: one[1].run),
+            Column("elongation_percent", lambda one: one[1].elongation[_MEDIAN]),
+            Column("remaining_hours", lambda one: one[1].left[_MEDIAN]),
         ],
-        [] if rotation is None else list(rotation.hours),
+        _in_rotation(found),
     )
 
 
@@ -128,8 +132,6 @@ def _level(at: int, one: Quantiles) -> float | str | None:
 
 def readings_table(found: ChainState) -> AnswerTable[tuple[ChainReading, float]]:
     """Return each reading as an elongation, beside what the median coefficient says."""
-    factor = found.of("coefficient_factor").middle
-    assert isinstance(factor, float)
     return AnswerTable(
         [
             Column("reading_row", lambda one: one[0].line),
@@ -138,7 +140,7 @@ def readings_table(found: ChainState) -> AnswerTable[tuple[ChainReading, float]]
             Column("elongation_percent", lambda one: one[0].mark),
             Column("result", lambda one: one[0].result),
             Column("error", lambda one: one[0].error),
-            Column("predicted", lambda one: factor * one[1]),
+            Column("predicted", lambda one: found.factor * one[1]),
         ],
         list(zip(found.log.readings, found.expected, strict=True)),
     )
