@@ -173,7 +173,10 @@ def test_own_numbers_override_each() -> None:
     ("settings", "words"),
     [
         (["lubrication.lubricant=drip", "wear.condition=hardened, dry"], "contradicts lubrication.lubricant"),
-        (["lubrication.lubricant=drip", "wear.condition=normalised, greased"], "is not that of lubrication"),
+        (
+            ["lubrication.lubricant=drip", "wear.condition=normalised, greased"],
+            "the condition of lubrication",
+        ),
         (
             ["lubrication.lubricant=dry", "wear.condition=hardened, oiled"],
             "contradicts lubrication.lubricant",

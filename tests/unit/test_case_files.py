@@ -101,7 +101,7 @@ def test_columns(faults):
     assert messages[0].startswith("run.csv:1: column 'load_per_width_N_per_mm' is missing")
     assert messages[1].endswith("did you mean 'load_per_width_N_per_mm'?")
     twice = "arc_length_mm,load_per_width_N_per_mm,flank_curvature_per_mm,arc_length_mm"
-    assert "run.csv:1: every column may stand there once only" in faults(PRESCRIBED, table(*ROWS, head=twice))
+    assert "run.csv:1: each column may appear only once" in faults(PRESCRIBED, table(*ROWS, head=twice))
     semicolons = [row.replace(",", ";") for row in ROWS]
     messages = faults(PRESCRIBED, table(*semicolons, head=HEAD.replace(",", ";")))
     assert messages[0] == "run.csv:1: column 'arc_length_mm' is missing"
@@ -187,7 +187,7 @@ def test_what_a_prescribed_case_does_not_use_is_said(tmp_path):
 def test_points_must_run_from_root_to_tip(faults):
     rows = [f"{x},{y}" for x, y in ((0.0, 90.0 - i) for i in range(20))]
     (message,) = faults(POINTS, table(*rows, head="x_mm,y_mm"))
-    assert message == ("run.csv: points must run from root to tip, but the radius falls: reverse them")
+    assert message == ("run.csv: points must run from root to tip, but the radius decreases: reverse them")
 
 
 def test_points_may_not_repeat_and_must_be_enough(faults):

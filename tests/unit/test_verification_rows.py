@@ -41,7 +41,7 @@ def test_inputs_stand_as_they_were_given():
     ("key", "value", "label", "told"),
     [
         ("load__power_kW", "10 hp", "load as given", "10 hp at 120 rpm"),
-        ("drive__service_factor", 1.95, "shock class", "f1 = 1.95, which is no class of ISO 10823"),
+        ("drive__service_factor", 1.95, "shock class", "f1 = 1.95, not a class of ISO 10823"),
         ("drive__service_factor", 1.8, "shock class", "heavy shocks (f1 = 1.8"),
         ("service__hours_per_day", 7.5, "running time", "7.5 h a day"),
         ("lubrication__environment", "dust", "lubrication", "drip, environment dust"),

@@ -193,7 +193,7 @@ def test_readings_off_one_line_widen_the_intervals(drive, table):
     ]
     found = chain_state(loaded, table(*rows))
     assert found.posterior.scale > 5.0
-    assert any("as far from one line" in text for text in found.warnings)
+    assert any("as much as their errors say" in text for text in found.warnings)
 
 
 def test_a_gauge_that_comes_out_again_is_named(drive, table):

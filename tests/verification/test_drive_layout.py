@@ -307,7 +307,7 @@ def test_tensions_of_case_b() -> None:
 @pytest.mark.parametrize(
     ("pitch", "teeth", "links", "message"),
     [
-        (12.7, (19, 57), 57, "exceed the 57 teeth of the larger sprocket, are 57"),
+        (12.7, (19, 57), 57, "exceed the 57 teeth of the larger sprocket, is 57"),
         (12.7, (19, 57), 39, "exceed the 57 teeth"),
         (12.7, (19, 57), 58, "use 68 links or more"),
         (12.7, (4, 57), 120, "at least 5 teeth"),

@@ -144,7 +144,7 @@ def test_references_that_a_law_holds_are_refused(
     for end in ends:
         slow.with_({"joint.law": "pressure_speed", f"joint.{key}": end})
     for beyond in (0.99 * low, 1.01 * high):
-        with pytest.raises(wearsim.CaseError, match=f"joint.{key}: must lie in {low:g} to {high:g}"):
+        with pytest.raises(wearsim.CaseError, match=f"joint.{key}: must lie between {low:g} and {high:g}"):
             slow.with_({"joint.law": "pressure_speed", f"joint.{key}": beyond})
 
 
