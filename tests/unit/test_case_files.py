@@ -222,5 +222,5 @@ def test_contact_past_an_end_of_the_points(faults, change, end, reached):
     rows = [f"{x!r},{y!r}" for x, y in zip(flank.x.tolist(), flank.y.tolist(), strict=True)]
     case = POINTS.replace("[load]", f"{change}\n[load]")
     (message,) = faults(case, table(*rows, head="x_mm,y_mm"))
-    found = re.search(rf"{end} end is touched at ([\d.]+) mm: at (?:least|most) that", message)
+    found = re.search(rf"{end} end of the flank at ([\d.]+) mm: give at (?:least|most) that", message)
     assert float(found.group(1)) == pytest.approx(reached, abs=0.2)

@@ -286,7 +286,7 @@ class TestLog:
         tensions = [row[1] for row in table(found)]
         assert min(tensions) == found.drive.slack == 1000.0
         (text,) = [text for text in found.assumptions if text.startswith("log.csv")]
-        assert re.search(r"399 s, .* to 12, .* takes [\d.]+ % off its mean square", text)
+        assert re.search(r"399 s, .* to leave 12, .* lowers the mean square load by [\d.]+ %", text)
         assert any("pulls no more than the slack one" in text for text in found.assumptions)
 
 

@@ -162,12 +162,13 @@ def _check_reach(
     if end < root - tolerance:
         case.faults.add(
             "sprocket.contact_end_mm",
-            f"the flank's root end is touched at {root:.6g} mm: at least that (got {end:g})",
+            f"the roller touches the root end of the flank at {root:.6g} mm: give at least that (got "
+            f"{end:g})",
         )
     if start > tip + tolerance:
         case.faults.add(
             "sprocket.contact_start_mm",
-            f"the flank's tip end is touched at {tip:.6g} mm: at most that (got {start:g})",
+            f"the roller touches the tip end of the flank at {tip:.6g} mm: give at most that (got {start:g})",
         )
 
 

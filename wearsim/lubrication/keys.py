@@ -33,7 +33,7 @@ APPLICATION = ("price_per_application", "minutes_per_application", "labour_cost_
 """Keys of what a relubrication costs."""
 
 SUPPLY = ("consumption_ml_per_hour", "price_per_litre")
-"""Keys of what a lubricant costs that is supplied all the time."""
+"""Keys of what a lubricant costs that is supplied continuously."""
 
 RATES = ("condition", "law", "specific_wear_rate_mm2_per_N", "coefficient")
 """Keys of [wear] that say how fast it wears."""

@@ -130,7 +130,7 @@ def remaining_life(
     reached = isinstance(history.life, Life)
     if reading.value > greatest * (1.0 + 1e-12):
         what = "the limit is reached" if reached else "the run ends at run.horizon_hours"
-        raise _fault(reading, f"must be at most {greatest:.6g}, where {what}")
+        raise _fault(reading, f"must be at most {greatest:.6g}, its value when {what}")
     model = history.hours_of(reading.value)
     low = history.hours_of(min(reading.value + reading.error, greatest))
     high = history.hours_of(reading.value - reading.error)
