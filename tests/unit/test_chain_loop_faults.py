@@ -100,7 +100,7 @@ def test_take_up_that_cannot_be(direction, travel):
 def test_travel_is_too_short():
     """400 mm take 100 links, 410 mm take 102."""
     loop = ChainLoop(PITCH, wheels(LEFT, RIGHT))
-    with pytest.raises(GeometryError, match=r"110 links must fit.*which takes 100 to 102 links"):
+    with pytest.raises(GeometryError, match=r"110 links must fit.*which allows 100 to 102 links"):
         fitting_travel(loop, TakeUp("right", (1.0, 0.0), 0.0, 10.0), 110)
 
 

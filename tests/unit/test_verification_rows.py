@@ -57,7 +57,7 @@ def test_what_is_not_given_says_so():
     few = {key: table for key, table in CONVEYOR.items() if key not in ("drive", "service", "lubrication")}
     drive = wearsim.load_case({**few, "drive": {"links": 124}, "wear": {"condition": "hardened, oiled"}})
     given = dict(given_rows(drive.inputs, drive.driver.case))
-    assert given["shock class"].startswith("not given: f1 = 1 is taken")
+    assert given["shock class"].startswith("not given: f1 = 1 is assumed")
     assert given["running time"] == "not given"
     assert given["lubrication"] == "type not given, wear condition 'hardened, oiled'"
     assert given["centre distance"].startswith("not prescribed; 124 links give 802.19 mm")

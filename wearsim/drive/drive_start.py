@@ -139,7 +139,7 @@ def _length(values: Values, amounts: Mapping[str, str], case: "Case") -> str:
     assert isinstance(case.drive, WrapDrive)
     layout = case.drive.layout
     assert isinstance(layout, DriveLayout)
-    distance = f"{layout.centre_distance:.6g} mm between the axes"
+    distance = f"{layout.centre_distance:.6g} mm centre distance"
     if values["centre"] is not None:
         even = f"{layout.links} links (even) give {layout.centre_distance:.6g} mm"
         return f"centre_distance_mm = {amounts['centre']}  # of the axes; {even}"

@@ -85,7 +85,7 @@ def _standard_gap(case: ChainRecord, table: SprocketTable, chain: Chain) -> Gap:
         **_options(case, table, chain),
     )
     if table.tip_diameter_mm is None:
-        case.take("sprocket.tip_diameter_mm", 2.0 * gap.tip_radius, "the standard's")
+        case.take("sprocket.tip_diameter_mm", 2.0 * gap.tip_radius, "by the standard")
     elif gap.truncated:
         case.warnings.append(
             f"the teeth come to a point at a diameter of {2.0 * gap.tip_radius:.5g} mm, below "

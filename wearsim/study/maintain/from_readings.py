@@ -189,7 +189,7 @@ def _not_known(parts: tuple[PartNow, ...], until: float) -> Iterator[str]:
         if not one.worn_out and one.left < until:
             yield (
                 f"{one.name} did not wear out in its run of {one.life:.4g} h, of which {one.left:.4g} h are "
-                "left: whether it lasts for the year is not known, a longer run.horizon_hours may tell"
+                "left: whether it lasts for the year is not known, a longer run.horizon_hours may show"
             )
         if one.used < 0.0:
             yield f"{one.name} is fitted only {-one.used:.4g} h after the last row of the log"
