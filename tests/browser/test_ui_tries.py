@@ -141,7 +141,7 @@ def test_an_example_begins_a_file_of_ones_own(watched, serve, tmp_path):
     answered(page, "sprocket.teeth", "21")
     assert page.locator(".ws-title").inner_text().endswith("with sprocket.teeth = 21")
     open_example(page, "packaging-conveyor")
-    page.get_by_text("is not saved as it stands here").wait_for()
+    page.get_by_text("has unsaved changes").wait_for()
     click(page, "Cancel")
     page.wait_for_selector(".q-dialog", state="detached")
     assert page.locator(".ws-name").inner_text() == "16b-20t-oiled.toml"

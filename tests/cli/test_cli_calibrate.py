@@ -236,7 +236,7 @@ def test_all_bad_cells_are_told_in_one_pass(cli, case, table):
     [
         ("time_hours,quantity,value", "column 'error' is missing"),
         (f"{HEAD},depht", "unknown column 'depht'"),
-        (f"{HEAD},error", "every column may stand there once only"),
+        (f"{HEAD},error", "each column may appear only once"),
     ],
 )
 def test_bad_headers_are_told(cli, case, table, head, message):

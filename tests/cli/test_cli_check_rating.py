@@ -218,7 +218,7 @@ def test_polygon_effect(checked, name, percent):
     ("name", "settings", "text"),
     [
         ("a40-19t-rating", (), "every tooth meets every roller"),
-        ("a50-20t-drip", (), "divisor 2: a tooth meets 57 of the rollers, only inner or only"),
+        ("a50-20t-drip", (), "divisor 2: a tooth meets 57 of the rollers, always inner or always"),
         ("a50-20t-drip", ("joint.pitch=uniform",), "a tooth meets 57 of the rollers"),
         ("d6-crawler-27t-wrap", (), "27 teeth and 42 links have the common divisor 3"),
     ],

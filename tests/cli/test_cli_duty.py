@@ -48,8 +48,8 @@ def test_hours_are_those_of_the_whole_duty(cli, case):
 def test_check_says_how_the_blocks_count(cli, case):
     done = cli("check", case(BLOCKS), "--explain")
     assert done.code == 0
-    assert "speed 100 rpm is the mean over the time of the duty" in done.out
-    assert "that of the heaviest one" in done.out
+    assert "speed 100 rpm is the time average of the duty" in done.out
+    assert "that of the heaviest block" in done.out
 
 
 def test_every_fault_of_the_blocks_with_its_line(cli, case):
@@ -145,7 +145,7 @@ def test_log_of_a_whole_drive_is_told_kept_and_run_again(cli, tmp_path):
     first = cli("life", tmp_path / "two.toml", "--explain", "--out", tmp_path / "run")
     assert (first.code, first.err.count("Traceback")) == (0, 0)
     text = " ".join(first.out.split())
-    assert "the drive stands for 33.3 % of the time" in text
+    assert "the drive stands still for 33.3 % of the time" in text
     assert "for 50 % of the cycles the load is negative" in text
     assert (tmp_path / "run" / "inputs" / "brake.csv").read_text() == BRAKED
     again = cli("life", tmp_path / "run" / "drive.lock.toml", "--json", "--out", tmp_path / "again")

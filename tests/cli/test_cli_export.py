@@ -265,7 +265,7 @@ def test_gear_pair(cli, gears, tmp_path, profile):
         assert lines.distance(shapely.Point(0.0, pitch_point)) < 1e-3
     if profile == "involute":
         assert [len(rows) for rows in found.values()] == [17, 34, 17, 34]
-        assert "the case tells no root" in " ".join(texts(out))
+        assert "the case gives no root" in " ".join(texts(out))
         thick = [angle_of_tooth(found[f"{gear}_NEW"][0], gear, case) for gear in ("PINION", "WHEEL")]
         radii = pitch_point, case.drive.pair.circles.wheel_radius
         widths = [angle * radius for angle, radius in zip(thick, radii, strict=True)]

@@ -97,7 +97,7 @@ def test_too_few_slices_are_told(cli):
         ("misalignment.varies_with=wheels", "did you mean 'wheel'"),
         ("misalignment.fixed_misalignment=1", "did you mean 'fixed_misalignment_um'"),
         ("running_in.time_hours=0", "must be greater than 0"),
-        ("load.power_kW='7 MN'", "the unit must be one of the kind of kW"),
+        ("load.power_kW='7 MN'", "the unit must be convertible to kW"),
         ("self_aligning.pivot_friction_lever_mm=-1", "must be greater than or equal to 0"),
     ],
 )

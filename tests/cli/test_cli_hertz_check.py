@@ -156,7 +156,7 @@ def test_doubtful_input_is_told(cli, setting, named):
     ("setting", "named"),
     [
         ("contact.torque_N_m=0", "must be greater than 0"),
-        ("contact.torque_N_m='240 N'", "the unit must be one of the kind of N*m"),
+        ("contact.torque_N_m='240 N'", "the unit must be convertible to N*m"),
         ("contact.poissons_ratio=0.5", "must be less than 0.5"),
         ("contact.working_pressure_angle_deg=50", "must be less than or equal to 45"),
         ("contact.torque=3", "did you mean 'torque_N_m'"),

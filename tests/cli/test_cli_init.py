@@ -199,7 +199,7 @@ def test_lines_are_short_and_explained(cli, length, lubrication, shock):
 
 
 def test_a_factor_beyond_the_handbooks_is_said(cli):
-    said = "# It is above 3, where handbooks ask for another drive."
+    said = "# It is above 3; handbooks advise another drive."
     dry = ("--lubrication", "dry", "--shock", "heavy")
     assert said in cli("init", *dry, "--hours-per-day", "16").out
     assert said not in cli("init", *dry, "--hours-per-day", "8").out
@@ -242,7 +242,7 @@ def test_chains_that_had_no_mass(cli, tmp_path, chain):
         ("--driver", "x", "must be a whole number"),
         ("--driven", "19.5", "must be a whole number"),
         ("--driven", "1001", "must be a whole number from 5 to 1000"),
-        ("--power", "3 kg", "the unit must be one of the kind of kW (got '3 kg')"),
+        ("--power", "3 kg", "the unit must be convertible to kW (got '3 kg')"),
         ("--power", "lots", "must be one number and its unit, such as '1.5 kW' (got 'lots')"),
         ("--power", "0", "must be a number above 0 (got '0')"),
         ("--power", "nan", "must be a number above 0"),
@@ -251,7 +251,7 @@ def test_chains_that_had_no_mass(cli, tmp_path, chain):
         ("--rpm", "-120", "must be a number above 0 (got '-120')"),
         ("--rpm", "1e-9", "must be greater than or equal to 0.000001"),
         ("--centre", "50", "must not overlap"),
-        ("--centre", "80 kg", "the unit must be one of the kind of mm"),
+        ("--centre", "80 kg", "the unit must be convertible to mm"),
         ("--links", "9", "must be a whole number from 10 to 100000"),
         ("--lubrication", "dripp", "(got 'dripp'); did you mean 'drip'?"),
         ("--hours-per-day", "25", "must be a number above 0 and at most 24 (got '25')"),

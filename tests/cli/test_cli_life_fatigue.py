@@ -81,7 +81,7 @@ def test_stress_that_is_allowed_at_no_time(life, printed):
     assert governing(found) == ("sprocket_fatigue", 0.0)
     text = one_line(life(*power(14)))
     assert "Governs contact fatigue of the sprocket, from the start (wear" in text
-    assert "more than the sprocket endures for any time" in text
+    assert "too high for the sprocket from the start" in text
 
 
 def test_nothing_within_the_run(life, printed):
@@ -145,5 +145,5 @@ def test_fatigue_that_governs_is_compared(cli, drive, tmp_path):
 
 def test_assumptions_tell_what_it_rests_on(cli, drive):
     text = one_line(cli("check", drive(), "--explain", "--set", HARD))
-    assert "formulas (21) to (26) of source 001, which are those of gears" in text
+    assert "formulas (21) to (26) of source 001, which are for gears" in text
     assert "fatigue.load_factor = 1 (default)" in text

@@ -220,7 +220,7 @@ def test_applied_one_beside_a_supply_of_the_case(tmp_path: Path) -> None:
         ({**DRIP, "price_per_litre": None}, "consumption_ml_per_hour", "needs price_per_litre too"),
         ({**DRIP, "consumption_ml_per_hour": None}, "price_per_litre", "needs consumption_ml_per_hour too"),
         ({**OPTIONS, "price_per_litre": 8.0}, "price_per_litre", "give price_per_application instead"),
-        ({**DRIP, "price_per_application": 2.0}, "price_per_application", "must not be given of a lubricant"),
+        ({**DRIP, "price_per_application": 2.0}, "price_per_application", "does not apply to a lubricant"),
     ],
 )
 def test_costs_that_do_not_fit_the_supply_are_named(table: dict[str, Any], key: str, words: str) -> None:

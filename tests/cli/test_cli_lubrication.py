@@ -173,7 +173,10 @@ def test_own_numbers_override_each() -> None:
     ("settings", "words"),
     [
         (["lubrication.lubricant=drip", "wear.condition=hardened, dry"], "contradicts lubrication.lubricant"),
-        (["lubrication.lubricant=drip", "wear.condition=normalised, greased"], "is not that of lubrication"),
+        (
+            ["lubrication.lubricant=drip", "wear.condition=normalised, greased"],
+            "the condition of lubrication",
+        ),
         (
             ["lubrication.lubricant=dry", "wear.condition=hardened, oiled"],
             "contradicts lubrication.lubricant",
@@ -230,8 +233,8 @@ def test_bad_input_is_named(settings: list[str], key: str, words: str) -> None:
     ("table", "key", "words"),
     [
         ({"lubricant": "dry", "interval_hours": 10}, "interval_hours", "needs a lubricant"),
-        ({"lubricant": "dry", "lasts_hours": 10}, "lasts_hours", "no lubricant that lasts"),
-        ({"lubricant": "drip", "interval_hours": 10}, "interval_hours", "supplied all the time"),
+        ({"lubricant": "dry", "lasts_hours": 10}, "lasts_hours", "dry contacts have no lubricant"),
+        ({"lubricant": "drip", "interval_hours": 10}, "interval_hours", "supplied continuously"),
         ({"lubricant": "manual", "interval_hours": 10}, "lasts_hours", "nothing is known about how long"),
         ({"lasts_hours": 10, "interval_hours": 10}, "dry_factor", "needed where a lubricant ages"),
         ({"lubricant": "manual", "fades_over_hours": 10}, "fades_over_hours", "needs lasts_hours"),
@@ -359,7 +362,10 @@ def test_threshold_that_is_never_reached_is_warned_of() -> None:
 
 def test_gears_take_their_own_numbers_only() -> None:
     case = CASES / "fzg-c14-16t-mild.toml"
-    for setting, words in (("lubricant=drip", "those of chains"), ("interval_km=3", "gears run no km")):
+    for setting, words in (
+        ("lubricant=drip", "catalogue are for chains"),
+        ("interval_km=3", "gears run no km"),
+    ):
         with pytest.raises(CaseError, match=words):
             wearsim.load_case(case, [f"lubrication.{setting}"])
 

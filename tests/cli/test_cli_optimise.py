@@ -404,7 +404,7 @@ def test_misspelt_keys_of_a_range_get_no_hint_at_other_tables(cli, case):
         (table(""), "must hold at least 1 "),
         (table(objectives=""), "must hold at least 1 "),
         (table(objectives='"cost"'), "optimise.objectives"),
-        (table(objectives='"mass_kg", "mass_kg"'), "every objective once"),
+        (table(objectives='"mass_kg", "mass_kg"'), "each objective may appear once"),
         (table('"sprocket.tooth" = [3, 4]\n'), "did you mean 'sprocket.teeth'"),
         (table('"sprocket.teeth" = [20, 20]\n'), "each value may appear once"),
         (table('"sprocket.teeth" = [20]\n'), "must hold at least 2 values (holds 1)"),

@@ -122,7 +122,7 @@ def test_page_says_it_before_the_hours_and_has_a_table(cli, drive, tmp_path, det
     assert page.index(told) < page.index('<p class="life">') < page.index('<dl class="band">')
     table = re.search(r'<section id="ratings">(.*?)</section>', page)[1]
     head = re.findall(r"<th scope=\"col\">(.*?)</th>", table)
-    assert head == ["rating", "verdict", "value", "allowed", "margin", "used", "whose rule"]
+    assert head == ["rating", "verdict", "value", "allowed", "margin", "used", "source"]
     plates = re.search(r'<th scope="row">plate fatigue</th>(.*?)</tr>', table)[1]
     cells = ["outside", "7 kW", "at most 4.604 kW", "-2.396 kW", "152 %", "ANSI B29.1, H1"]
     assert re.findall(r"<td>(.*?)</td>", plates) == cells
@@ -149,7 +149,9 @@ def test_workbook_and_comparison(cli, drive, tmp_path):
     (at,) = [number for number, row in enumerate(rows) if row[0] == "plate fatigue"]
     value, allowed, margin, judged = rows[at : at + 4]
     assert judged[2:] == ["outside", "ok"]
-    assert ["outside (informs)"] * 2 in [row[2:] for row in rows if row[0] == "joint pressure, verdict"]
+    assert ["outside (for information)"] * 2 in [
+        row[2:] for row in rows if row[0] == "joint pressure, verdict"
+    ]
     assert (value[1:], allowed[0]) == (
         ["kW", pytest.approx(7.0), pytest.approx(4.6)],
         "plate fatigue, allowed",

@@ -51,7 +51,7 @@ def test_a_reading_beyond_the_limit_is_bad_input(cli, drive):
     done = cli("remaining", drive(), "--hours", "100", "--depth-mm", "0.03", "--json")
     assert done.code == 2
     assert json.loads(done.out)["error"]["kind"] == "CaseError"
-    assert "where the limit is reached" in done.err
+    assert "its value when the limit is reached" in done.err
 
 
 WRAP = """\

@@ -115,7 +115,7 @@ def test_teeth_that_lose_contact_are_a_warning_and_with_a_load_an_error(cli, tmp
         ("pinion.teeth=4", "pinion.teeth: must be greater than or equal to 5"),
         ("spectrum.modell=pairs", "did you mean"),
         ("spectrum.formula=printed", "spectrum.formula: belongs to the closed form"),
-        ("wheel.pitch_error_mm=3 deg", "wheel.pitch_error_mm: the unit must be one of the kind of mm"),
+        ("wheel.pitch_error_mm=3 deg", "wheel.pitch_error_mm: the unit must be convertible to mm"),
         ("statics.pinion_torque_N_m=60", "give exactly one of force_N, pinion_torque_N_m (got both)"),
     ],
 )

@@ -93,7 +93,7 @@ def test_percentiles_are_those_of_fatigue_where_it_governs(cli, case):
     ratio = found["p10_hours"] / found["p50_hours"]
     assert ratio == pytest.approx(math.exp(-3.0 * 0.04 * Z10), rel=1e-2)
     assert "a life ends by wear or by contact fatigue" in " ".join(found["assumptions"])
-    assert any("comes before the wear" in text for text in found["warnings"])
+    assert any("ends the life before wear" in text for text in found["warnings"])
     p10 = found["p10_hours"]
     assert cli(*options, "--require-hours", 0.99 * p10).code == 0
     assert cli(*options, "--require-hours", 1.01 * p10).code == 4

@@ -112,7 +112,7 @@ def test_printed_formula_is_flagged(cli):
     [
         ("wave_drive.gear_ratio=0", "must be greater than 0"),
         ("wave_drive.tooth_length_ratio=2", "must be less than or equal to 1"),
-        ("wave_drive.output_torque_N_m='5 kg'", "the unit must be one of the kind of N*m"),
+        ("wave_drive.output_torque_N_m='5 kg'", "the unit must be convertible to N*m"),
         ("torsion.formula=corect", "did you mean 'corrected'"),
         ("pressure.allowable_pressure=60", "did you mean 'allowable_pressure_MPa'"),
         ("rim_bending.safety_factor=0.9", "must be greater than or equal to 1"),

@@ -164,8 +164,8 @@ def test_a_chain_without_slack_has_the_tension_of_its_stretch(checked):
 def test_places_that_do_not_fit_are_told_how_far_apart_they_would(checked):
     done = checked(placed(KART.replace("links = 104\n", ""), 203.09))
     assert done.code == 2
-    assert "take 104.0759 links; 104 are 0.59 mm too short, 0.073 %" in done.err
-    assert "set the wheels apart by 202.764 mm for 104 or 211.323 mm for 106" in done.err
+    assert "need 104.0759 links; 104 links are 0.59 mm too short, 0.073 %" in done.err
+    assert "set the centre distance to 202.764 mm for 104 links or 211.323 mm for 106 links" in done.err
 
 
 @pytest.mark.parametrize("pitch", ["alternating", "uniform"])
@@ -187,7 +187,7 @@ def test_a_jump_does_not_hide_what_overloads_the_drive(checked):
     motor, differential, load = [line for line in done.err.splitlines() if "drive.toml:" in line]
     assert "'motor': " in motor and "the chain jumps: give a slack tension" in motor
     assert "'differential': " in differential
-    assert ": load: the load must keep to its ratings: " in load
+    assert ": load: the load must stay within its ratings: " in load
     assert "roller impact 79.48 kW, allowed at most 1.597 kW (ANSI B29.1, H2): 4978 % of it" in load
     for name in ("plate fatigue", "corrected power", "safety against breaking"):
         assert name in load

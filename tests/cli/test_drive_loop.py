@@ -228,7 +228,7 @@ def test_cogs_share_the_time_and_the_chain(tmp_path, cassette):
         ("position_mm = [62, 155]", "position_mm = [20, 155]", 10, "does not touch wheel 'tensioner'"),
         ("links = 92", "links = 120", 10, "120 links must fit within its travel"),
         ("power_share = 0.3", "power_share = 0.2", 32, "the power must balance"),
-        ("outside = true", "outside = true\npower_share = 0.1", 18, "an idler takes no power"),
+        ("outside = true", "outside = true\npower_share = 0.1", 18, "an idler transmits no power"),
         (
             "power_share = 0.3",
             "power_share = 0.3\ntake_up = {guide_deg = 0}",
@@ -237,12 +237,17 @@ def test_cogs_share_the_time_and_the_chain(tmp_path, cassette):
         ),
         ("position_mm = [306, 0]", "position_mm = [40, 40]", 4, "must not overlap"),
         ("[-25, 30]", "[30, -25]", 18, "two ends of the travel"),
-        ("power_kW = 1.3", "tension_N = 1300", 36, "spans have tensions of their own"),
+        ("power_kW = 1.3", "tension_N = 1300", 36, "each span has its own tension"),
         ("links = 92", "links = 92\nmate_teeth = 20", 35, "the other [[sprocket]] gives this"),
-        ("links = 92", "centre_distance_mm = 300", 34, "position_mm give this"),
-        ("links = 92", "links = 92\nslack_tension_N = 80", 35, "the force of the take_up gives this"),
+        (
+            "links = 92",
+            "centre_distance_mm = 300",
+            34,
+            "this follows from the sprockets and their position_mm",
+        ),
+        ("links = 92", "links = 92\nslack_tension_N = 80", 35, "the force of the take_up already gives this"),
         ("tensioner_force_N = 80", "tensioner_force_N = 80000", 36, "the pull must stay below the chain's"),
-        ("guide_deg = -37.5", "guide_deg = 142.5", 10, "every span must be pulled"),
+        ("guide_deg = -37.5", "guide_deg = 142.5", 10, "every span must be in tension"),
         ("tensioner_force_N = 80", "tensioner_force_N = 0.1", 18, "'motor': the rollers must hold the chain"),
     ],
 )
@@ -308,13 +313,13 @@ def test_without_a_take_up_the_links_decide(cli, tmp_path, loop):
     path.write_text(fixed)
     done = cli("check", path)
     assert done.code == 2
-    assert "a whole number of links must fit: the wheels as they stand take 91." in done.err
+    assert "a whole number of links must fit: the wheels as placed need 91." in done.err
     path.write_text(fixed.replace("[306, 0]", "[307.9, 0]").replace("links = 92", "links = 92"))
     done = cli("check", path)
     assert done.code in (0, 2)
     text = fixed.replace("links = 92", "links = 92\nsag_percent = 3")
     path.write_text(text)
-    assert "without a take_up the links give the sag" in cli("check", path).err
+    assert "without a take_up the number of links sets the sag" in cli("check", path).err
 
 
 def test_one_chain_runs_on_all_cogs(cassette):
@@ -336,7 +341,7 @@ def test_check_names_the_cogs_of_an_assumption_once(cli, tmp_path, cassette):
     path = tmp_path / "drive.toml"
     path.write_text(cassette)
     found = json.loads(cli("check", path, "--json").out)["assumptions"]
-    assert "cassette: the chain runs on this cog 25 to 75 % of the time and grows on all" in found
+    assert "cassette: the chain runs on this cog 25 to 75 % of the time and elongates on all cogs" in found
     assert sum("sprocket.tip_diameter_mm" in text for text in found) == 2
     assert not [text for text in found if "13T" in text or "17T" in text]
 
@@ -345,8 +350,8 @@ def test_cassettes_are_checked(cli, tmp_path, cassette):
     path = tmp_path / "drive.toml"
     for before, after, message in (
         ("share_of_time = 0.75", "share_of_time = 0.7", "share_of_time of all cogs must sum to 1 (got 0.95)"),
-        ('name = "cassette"', 'name = "cassette"\nteeth = 17', "the cogs give their own"),
-        ("teeth = 17, share", "teeth = 13, share", "cogs must have different teeth"),
+        ('name = "cassette"', 'name = "cassette"\nteeth = 17', "each cog gives its own"),
+        ("teeth = 17, share", "teeth = 13, share", "cogs must have different numbers of teeth"),
         ('name = "ring"', 'name = "cassette 13T"', "need different names (got 'cassette 13T' twice)"),
         ("teeth = 38\n", "cog = [{teeth = 20, share_of_time = 1.0}, {teeth = 18}]\n", "share_of_time"),
         ("phases = 2", 'kind = "strand"', "the chain of a drive wraps its sprockets"),
@@ -408,7 +413,7 @@ def test_a_loop_that_nothing_takes_up_is_rated_by_half_the_elongation(cli, loop,
         found = json.loads(cli("check", path, "--json", *settings).out)
         (rule,) = [one for one in found["rating"] if one["name"] == "elongation at the end"]
         assert (rule["value"], rule["limit"], rule["ok"]) == (value, 1.5, ok)
-        assert rule["source"].startswith("1.5 % as nothing takes up")
+        assert rule["source"].startswith("1.5 % without a take-up")
 
 
 @pytest.mark.wide

@@ -158,7 +158,7 @@ def test_ratings_come_first_with_their_margins(lived, page):
         unit = f" {one.unit}" if one.unit else ""
         sign = "≥" if one.at_least else "≤"
         judges = one in deciding(ratings)
-        assert row[1] == ("ok" if one.ok else "outside") + ("" if judges else " (informs)")
+        assert row[1] == ("ok" if one.ok else "outside") + ("" if judges else " (for information)")
         assert row[2:5] == [
             f"{grouped(one.value)}{unit}",
             f"{sign} {grouped(one.limit)}{unit}",
@@ -337,7 +337,7 @@ def test_what_does_not_fit_is_refused(cli, drive, tmp_path, bored):
         ("bore_mm = 20", "bore_mm = 0", 8, "bore_mm"),
         ("bore_mm = 20\n", "", 8, "needs bore_mm"),
         ("keyway_width_mm = 6", "keyway_width_mm = 20", 9, "must be below the bore of 20 mm (got 20)"),
-        ("hub_diameter_mm = 45", "hub_diameter_mm = 25", 10, "must lie inside the hub of 25 mm"),
+        ("hub_diameter_mm = 45", "hub_diameter_mm = 25", 10, "must stay inside the hub of 25 mm"),
         (
             "hub_diameter_mm = 45",
             "hub_diameter_mm = 61",
@@ -359,7 +359,7 @@ def test_bad_bores_are_named_with_their_line(cli, tmp_path, before, after, line,
 def test_a_keyway_that_cuts_the_teeth_is_named(cli, tmp_path, bored):
     text = bored.replace("bore_mm = 25", "bore_mm = 70\nkeyway_width_mm = 10\nkeyway_depth_mm = 1.4")
     done = cli("check", written(tmp_path / "drive.toml", text))
-    assert "sprocket.2.keyway_depth_mm: the corners of the keyway must lie" in done.err
+    assert "sprocket.2.keyway_depth_mm: the corners of the keyway must stay" in done.err
 
 
 def test_the_hub_of_a_cassette_fits_its_smallest_cog(cli, tmp_path):

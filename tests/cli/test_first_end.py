@@ -75,7 +75,7 @@ def test_the_answer_replaces_the_chain_then(found):
 def test_the_chains_of_the_sprockets_are_told(found):
     """Teeth wear under chains that grow by 3 %; these are gone before."""
     (told,) = (text for text in found.warnings if "sprocket lives" in text)
-    assert "roller and bush impact ends these at 5 839 h" in told
+    assert "roller and bush impact ends its life at 5 839 h" in told
     light = {"load": {"power_kW": 1.0, "speed_rpm": 300}, "run": {"life_tolerance": 0.1}}
     later = load_drive({**tables(), **light})
     assert not any("sprocket lives" in text for text in drive_life(later).warnings)

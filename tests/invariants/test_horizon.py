@@ -67,7 +67,7 @@ def test_a_horizon_that_is_given_ends_the_run(tables):
     assert isinstance(result.life, LowerBound)
     assert result.life.hours_run == pytest.approx(2000.0, rel=1e-9)
     assert result.stop == "horizon_hours"
-    assert not [text for text in result.warnings if "most that it takes" in text]
+    assert not [text for text in result.warnings if "the most allowed" in text]
 
 
 def test_what_hardly_wears_ends_after_a_million_hours():
@@ -88,5 +88,5 @@ def test_a_sprocket_that_outlives_many_chains_takes_so_many_steps(monkeypatch):
     assert 2.0 * chain.hours < sprocket.hours_run < 3.0 * chain.hours
     assert sprocket.hours_run == result.hours_run
     assert result.updates in (40, 80)  # of twice as many steps where the error asks for them
-    (told,) = [text for text in result.warnings if "most that it takes" in text]
-    assert told.startswith(f"the run ends after {result.updates} steps and 3 chains")
+    (told,) = [text for text in result.warnings if "the most allowed" in text]
+    assert told.startswith(f"the run stopped after {result.updates} steps and 3 chains")

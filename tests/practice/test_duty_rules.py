@@ -148,7 +148,7 @@ def test_a_better_lubrication_is_said_and_warned_of_by_nobody():
 def test_shocks_of_the_rules_are_said():
     shocks = practice(drive={"service_factor": 2})
     assert hours(shocks)["rating rule"] == pytest.approx(hours(practice())["rating rule"] / 8)
-    assert "with shocks f1 = 2, which the computed life leaves out" in practice_text(shocks)
+    assert "with shocks f1 = 2, which the computed life does not include" in practice_text(shocks)
     assert "shocks" not in practice_text(practice())
 
 
@@ -156,7 +156,7 @@ def test_hours_that_nobody_has_seen_are_a_bound(drive):
     light = second_opinions(drive(pull=300.0))
     assert {told for _, told, _, _ in rule_rows(light)[:-1]} == {"> 100 000 h"}
     assert practice_text(light).startswith("> 100 000 h by 7 published rules")
-    assert "wear is not the end of this chain" in practice_text(light)
+    assert "wear does not end the life of this chain" in practice_text(light)
     ends = [Life(1.0, hours) for hours in (5e4, 9e4, 1.1e5, 2e5)]
     assert light.within((ends[0], ends[2])) and light.within((ends[3], ends[3]))
     assert not light.within((ends[0], ends[1]))

@@ -50,14 +50,18 @@ def test_two_strands_carry_1_7_times_the_pull_of_one_for_the_same_hours(drive):
     ("changes", "without", "reason"),
     [
         ({"pitch": 80.0, "pull": 1e3}, "rating rule", "no rating above a pitch of 76.2 mm"),
-        ({"pitch": 66.0, "pull": 1e3}, "handbook cube law", "c2 is tabled for pitches from 9.525 to 63.5 mm"),
-        ({"pitch": 9.0, "pull": 1e3}, "handbook cube law", "c2 is tabled"),
-        ({"speed": 10.0}, "DIN 8195 pressure", "p_v is tabled from 0.1 to 10 m/s"),
-        ({"speed": 1600.0, "pull": 1e3}, "DIN 8195 pressure", "p_v is tabled"),
-        ({"speed": 1601.0, "pull": 1e3}, "GOST pressure, m = 3", "not tabled for 19.05 mm at 1601 rpm"),
+        (
+            {"pitch": 66.0, "pull": 1e3},
+            "handbook cube law",
+            "c2 is tabulated for pitches from 9.525 to 63.5 mm",
+        ),
+        ({"pitch": 9.0, "pull": 1e3}, "handbook cube law", "c2 is tabulated"),
+        ({"speed": 10.0}, "DIN 8195 pressure", "p_v is tabulated from 0.1 to 10 m/s"),
+        ({"speed": 1600.0, "pull": 1e3}, "DIN 8195 pressure", "p_v is tabulated"),
+        ({"speed": 1601.0, "pull": 1e3}, "GOST pressure, m = 3", "not tabulated for 19.05 mm at 1601 rpm"),
         ({"speed": 10.0}, "Vorobyev 5200", "in use from about 0.1 to 10 m/s"),
         ({"links": 50}, "Vorobyev 4350", "need more links"),
-        ({"strands": 4, "pull": 1e3}, "GOST pressure, m = 1.5", "m_p is tabled to 3 strands"),
+        ({"strands": 4, "pull": 1e3}, "GOST pressure, m = 1.5", "m_p is tabulated for up to 3 strands"),
     ],
 )
 def test_a_rule_has_no_hours_outside_its_range(drive, changes, without, reason):
@@ -83,7 +87,7 @@ def test_no_rule_has_hours_beyond_what_practice_knows(drive, no, pull, limit):
 def test_hours_that_nobody_has_seen_say_so(drive):
     light = drive(pull=300.0)
     assert hours(light)["rating rule"] > 1e5
-    assert "it is not wear that a chain ends by" in notes(light)["rating rule"]
+    assert "wear does not end the life of a chain" in notes(light)["rating rule"]
     assert "not wear" not in notes(drive())["rating rule"]
 
 

@@ -151,7 +151,7 @@ def test_joints_take_the_state_of_the_teeth_and_say_from_where(load, condition, 
 def test_joints_without_a_condition_are_well_lubricated_and_say_so(load):
     case = load(WRAPPED.replace('condition = "hardened, oiled"', "specific_wear_rate_mm2_per_N = 1e-8"))
     assert case.drive.joint.coefficient == 1.2e-10
-    assert "as in 'hardened, oiled', none is named" in joint_text(case)
+    assert "as for 'hardened, oiled', no condition is given" in joint_text(case)
 
 
 @pytest.mark.parametrize(
@@ -190,7 +190,7 @@ def test_a_rate_that_was_measured_is_not_argued_with(load):
 
 
 def test_a_source_needs_its_rate(load):
-    with pytest.raises(wearsim.CaseError, match=r"joint\.source: says where specific_wear_rate"):
+    with pytest.raises(wearsim.CaseError, match=r"joint\.source: names the source of specific_wear_rate"):
         load(WRAPPED + '[joint]\nsource = "read on the drive"\n')
 
 

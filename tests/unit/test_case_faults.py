@@ -53,8 +53,8 @@ NOT_NUMBERS = {
     "1" + "0" * 400: "must be a finite number (got 1000",
     '"1e400 kW"': "must be a finite number",
     '"5"': "give a number without quotes, or with a unit such as '1 kW' (got '5')",
-    '"5 mm"': "the unit must be one of the kind of kW (got '5 mm')",
-    '"25 degC"': "the unit must be one of the kind of kW",
+    '"5 mm"': "the unit must be convertible to kW (got '5 mm')",
+    '"25 degC"': "the unit must be convertible to kW",
     '"3,5 kW"': "must be one number and its unit",
     '"much"': "must be one number and its unit",
     "0": "must be greater than 0 (got 0)",
@@ -239,7 +239,7 @@ def test_no_file(tmp_path, name, reason):
 
 
 CONFLICTS = [
-    (("[chain]", "[chain]\npitch_mm = 25.4"), "3", "chain.pitch_mm", "remove one of both"),
+    (("[chain]", "[chain]\npitch_mm = 25.4"), "3", "chain.pitch_mm", "remove one of the two"),
     (('designation = "16B-1"', "pitch_mm = 25.4"), "3", "chain.roller_diameter_mm", "(missing: rol"),
     (
         ('designation = "16B-1"', "pitch_mm = 9\nroller_diameter_mm = 9\ninner_width_mm = 9"),
@@ -263,7 +263,7 @@ CONFLICTS = [
         ("[wear]", "[material.roller]\nname = 'steel'\npoissons_ratio = 0.3\n[wear]"),
         "12",
         "material.roller.poissons_ratio",
-        "remove one of both",
+        "remove one of the two",
     ),
     (("[wear]", "[material.roller]\nname = 'steal'\n[wear]"), "11", "material.roller.name", "'steel'"),
     (("teeth = 20", "teeth = 20\nface_width_mm = 18"), "6", "sprocket.face_width_mm", "17.02 mm"),

@@ -101,7 +101,7 @@ def test_columns(faults):
     assert messages[0].startswith("run.csv:1: column 'load_per_width_N_per_mm' is missing")
     assert messages[1].endswith("did you mean 'load_per_width_N_per_mm'?")
     twice = "arc_length_mm,load_per_width_N_per_mm,flank_curvature_per_mm,arc_length_mm"
-    assert "run.csv:1: every column may stand there once only" in faults(PRESCRIBED, table(*ROWS, head=twice))
+    assert "run.csv:1: each column may appear only once" in faults(PRESCRIBED, table(*ROWS, head=twice))
     semicolons = [row.replace(",", ";") for row in ROWS]
     messages = faults(PRESCRIBED, table(*semicolons, head=HEAD.replace(",", ";")))
     assert messages[0] == "run.csv:1: column 'arc_length_mm' is missing"
@@ -187,7 +187,7 @@ def test_what_a_prescribed_case_does_not_use_is_said(tmp_path):
 def test_points_must_run_from_root_to_tip(faults):
     rows = [f"{x},{y}" for x, y in ((0.0, 90.0 - i) for i in range(20))]
     (message,) = faults(POINTS, table(*rows, head="x_mm,y_mm"))
-    assert message == ("run.csv: points must run from root to tip, but the radius falls: reverse them")
+    assert message == ("run.csv: points must run from root to tip, but the radius decreases: reverse them")
 
 
 def test_points_may_not_repeat_and_must_be_enough(faults):
@@ -222,5 +222,5 @@ def test_contact_past_an_end_of_the_points(faults, change, end, reached):
     rows = [f"{x!r},{y!r}" for x, y in zip(flank.x.tolist(), flank.y.tolist(), strict=True)]
     case = POINTS.replace("[load]", f"{change}\n[load]")
     (message,) = faults(case, table(*rows, head="x_mm,y_mm"))
-    found = re.search(rf"{end} end is touched at ([\d.]+) mm: at (?:least|most) that", message)
+    found = re.search(rf"{end} end of the flank at ([\d.]+) mm: give at (?:least|most) that", message)
     assert float(found.group(1)) == pytest.approx(reached, abs=0.2)

@@ -56,7 +56,7 @@ def test_number_without_a_unit_does_not_belong_in_quotes(text):
 
 @pytest.mark.parametrize("text", ["25 degC", "5 N", "20 Nm", "3 kg"])
 def test_unit_of_another_kind(text):
-    with pytest.raises(ValueError, match="the unit must be one of the kind of mm"):
+    with pytest.raises(ValueError, match="the unit must be convertible to mm"):
         convert(text, "mm")
 
 

@@ -122,17 +122,17 @@ def test_case_tells_of_the_doubtful_numbers_of_its_chain():
         "load": {"tension_N": 100, "speed_rpm": 100},
         "wear": {"condition": "hardened, oiled"},
     }
-    told = "note of the catalogue on chain {}: doubtful: "
+    told = "catalogue note on chain {}: doubtful: "
     assert any(
         text.startswith(told.format("082") + "tensile_kN, 9.8 in DIN 8187-1, 10 in GOST")
         for text in load_case(tables).assumptions
     )
     tables["chain"]["designation"] = "60H"
-    (note,) = (text for text in load_case(tables).assumptions if "note of the catalogue" in text)
+    (note,) = (text for text in load_case(tables).assumptions if "catalogue note" in text)
     assert note.startswith(told.format("60H-1") + "transverse_pitch_mm, found in one table only; ")
     assert note.endswith("mass_kg_per_m that of 12A-1 with thicker plates, good to about 5 %")
     tables["chain"]["designation"] = "16B"
-    assert not any("note of the catalogue" in text for text in load_case(tables).assumptions)
+    assert not any("catalogue note" in text for text in load_case(tables).assumptions)
 
 
 def test_no_name_stands_twice():

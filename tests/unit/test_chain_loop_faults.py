@@ -35,7 +35,7 @@ LEFT, RIGHT = ("left", 0.0, 0.0, 20), ("right", 400.0, 0.0, 20)
         ((LEFT, RIGHT, ("top", 250.0, 300.0, 20), ("in", 200.0, 160.0, 11)), "does not touch wheel 'in'"),
         ((LEFT, RIGHT, ("high", 200.0, 0.0, 20)), r"does not touch wheel 'high'.*above 0, would be 0 deg"),
         ((LEFT, ("top", 200.0, 300.0, 20), RIGHT), r"in the order right, top, left"),
-        ((LEFT, ("right", 400.0, 0.0, 20, True)), "two wheels or more must lie inside of the loop, 1 do"),
+        ((LEFT, ("right", 400.0, 0.0, 20, True)), "at least two wheels must lie inside the loop, 1 do"),
         ((LEFT, ("left", 400.0, 0.0, 20)), "2 are called 'left'"),
         ((LEFT, ("right", 400.0, 0.0, 4)), "'right' needs at least 5 teeth, has 4"),
         ((LEFT, ("right", math.nan, 0.0, 20)), "'right' needs a centre of two finite numbers"),
@@ -100,7 +100,7 @@ def test_take_up_that_cannot_be(direction, travel):
 def test_travel_is_too_short():
     """400 mm take 100 links, 410 mm take 102."""
     loop = ChainLoop(PITCH, wheels(LEFT, RIGHT))
-    with pytest.raises(GeometryError, match=r"110 links must fit.*which takes 100 to 102 links"):
+    with pytest.raises(GeometryError, match=r"110 links must fit.*which allows 100 to 102 links"):
         fitting_travel(loop, TakeUp("right", (1.0, 0.0), 0.0, 10.0), 110)
 
 

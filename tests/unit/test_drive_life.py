@@ -209,7 +209,7 @@ def test_a_new_chain_comes_lubricated(running_in):
     for result in found.results.values():
         changes = chain_changes(result)
         assert changes == pytest.approx(life * (1.0 + np.arange(changes.size)), rel=1e-6) and changes.size > 1
-    assert any("new chain come lubricated" in text for text in found.drive.assumptions)
+    assert any("new chain has lubricated" in text for text in found.drive.assumptions)
 
 
 EQUAL = {

@@ -139,7 +139,7 @@ def test_strings_with_units_are_read_in_a_block(case):
 
 def test_answer_says_what_the_heaviest_block_is_for(case):
     texts = " ".join(case(blocks((0.5, 5000, 100), (0.5, 3000, 100))).assumptions)
-    assert "that of the heaviest one" in texts
+    assert "that of the heaviest block" in texts
     assert "heaviest" not in " ".join(case(blocks((1.0, 5000, 100))).assumptions)
 
 
@@ -286,7 +286,7 @@ class TestLog:
         tensions = [row[1] for row in table(found)]
         assert min(tensions) == found.drive.slack == 1000.0
         (text,) = [text for text in found.assumptions if text.startswith("log.csv")]
-        assert re.search(r"399 s, .* to 12, .* takes [\d.]+ % off its mean square", text)
+        assert re.search(r"399 s, .* to leave 12, .* lowers the mean square load by [\d.]+ %", text)
         assert any("pulls no more than the slack one" in text for text in found.assumptions)
 
 
@@ -303,7 +303,7 @@ class TestFaults:
             (
                 blocks((0.5, 5000, 100)) + blocks((0.5, 3000, 100), share="share_of_cycles"),
                 5,
-                r"duty.2.share_of_cycles: .*same share, block 1 has share_of_time",
+                r"duty.2.share_of_cycles: .*same key, in block 1 it is share_of_time",
             ),
             (GOOD + "share_of_cycles = 0.5\n", 8, "duty.2.share_of_cycles: give exactly one of"),
             (GOOD + "power_kW = 5\n", 8, r"duty.2.power_kW: give exactly one of .*tension_N, power_kW\)"),
@@ -318,7 +318,7 @@ class TestFaults:
                 GOOD + 'wear_factor = 2\napplies_to = "joints"\n',
                 9,
                 r"duty.2.applies_to: joints wear only where a chain wraps the sprocket, here kind = "
-                r"'strand': take 'all' or 'teeth', or mechanism.kind = 'wrap'",
+                r"'strand': use 'all' or 'teeth', or set mechanism.kind = 'wrap'",
             ),
             (GOOD + 'applies_to = "rollers"\n', 8, "duty.2.applies_to: .*'teeth'"),
             (GOOD + "wear_faktor = 2\n", 8, "duty.2.wear_faktor: unknown key; .*wear_factor"),
@@ -400,11 +400,11 @@ class TestFaults:
             ),
             (
                 log_text("0,1,1,1", "1,1,1,1", head="time_s,torque_N_m,power_kW,speed_rpm"),
-                r"log.csv:1: one column must give this \(got torque_N_m and power_kW\): keep one",
+                r"log.csv:1: only one column may give this \(got torque_N_m and power_kW\): keep one",
             ),
             (
                 log_text("0,1,1,1", "1,1,1,1", head="time_s,secs,power_kW,speed_rpm"),
-                r"log.csv:1: one column must give this \(got time_s and secs\)",
+                r"log.csv:1: only one column may give this \(got time_s and secs\)",
             ),
         ],
     )

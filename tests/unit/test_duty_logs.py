@@ -120,18 +120,18 @@ class TestStops:
             rows += every_second([250.0] * 6, start=12.0 * i + 6.0, speed=0)
         whole = load_case({**STRAND, **logged(*rows, (120.0, 0.0, 0))})
         same(whole, load_case({**STRAND, **logged(*self.cut(0.0))}))
-        assert "stands for 50 % of the time" in said(whole, "stands")
-        assert "1000 running hours take 2000 h with the stops" in said(whole, "stands")
+        assert "stands still for 50 % of the time" in said(whole, "stands")
+        assert "1000 running hours take 2000 h including stops" in said(whole, "stands")
 
     def test_it_says_what_is_taken_for_a_stop(self, logged):
         case = load_case({**STRAND, **logged(*self.cut(6.0))})
-        assert "9 of the steps are much longer than the usual one of 1 s: the row before holds" in said(
+        assert "9 steps are much longer than the usual 1 s: the row before each counts" in said(
             case, "much longer"
         )
-        assert "stands for 47.4 % of the time" in said(case, "the drive stands")  # 54 of 114 s
+        assert "stands still for 47.4 % of the time" in said(case, "the drive stands")  # 54 of 114 s
         assert not case.warnings
 
-    @pytest.mark.parametrize(("day", "words"), [(8, "take 16 h with the stops"), (16, "take 32 h")])
+    @pytest.mark.parametrize(("day", "words"), [(8, "take 16 h including the stops"), (16, "take 32 h")])
     def test_hours_of_a_day_are_running_hours(self, logged, day, words):
         rows = [(0, 1000.0, 90), (60, 0.0, 0), (120, 0.0, 0)]
         case = load_case({**STRAND, **logged(*rows), "service": {"hours_per_day": day}})
@@ -153,7 +153,7 @@ class TestStops:
         rows = [(0, 1000.0, 60), (1, 3000.0, 60), (3, 1000.0, 60), (6, 3000.0, 60), (206, 0.0, 0)]
         case = load_case({**STRAND, **logged(*rows)})
         assert [row[0] for row in blocks(case)] == pytest.approx([4 / 8.5, 4.5 / 8.5])
-        assert any("much longer than the usual one of 2.5 s" in text for text in case.warnings)
+        assert any("much longer than the usual 2.5 s" in text for text in case.warnings)
 
 
 SPEEDS = 60.0, 150.0
@@ -291,7 +291,7 @@ class TestWholeDrives:
             same(one.case, other.case)
 
     def test_tension_in_a_loop_of_places_is_refused(self, logged):
-        with pytest.raises(CaseError, match=r"load.duty_file: spans have tensions of their own"):
+        with pytest.raises(CaseError, match=r"load.duty_file: each span has its own tension"):
             load_drive({**PLACED, **logged((0, 500.0, 90), (60, 0.0, 0))})
 
     def test_braking_swaps_the_spans_of_a_loop(self, logged):
@@ -309,7 +309,7 @@ class TestWholeDrives:
         fan = cog(19, name="fan", position_mm=[150, 250], power_share=0.4)
         sprung = {**fan, "take_up": {"guide_deg": 90, "tensioner_force_N": 150}}
         drive = {**PLACED, "sprocket": [*PLACED["sprocket"][:2], sprung], "drive": {}}
-        with pytest.raises(CaseError, match=r"every span must be pulled.*below 0 of the log swap"):
+        with pytest.raises(CaseError, match=r"every span must be in tension.*negative loads of the log swap"):
             load_drive({**drive, **logged((0, 1.0, 90), (60, -25.0, 90), (120, 0.0, 0), head=self.HEAD)})
 
     def test_idling_in_a_loop(self, logged):

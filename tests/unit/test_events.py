@@ -82,7 +82,7 @@ def test_relubrications(table, expected):
 def test_bedding_in_is_counted_where_the_case_gives_it():
     (_, _, text), *_ = told([WORN], {"wear": {"running_in_factor": 3.0, "running_in_distance_mm": 1e5}})
     assert text.endswith("counted by running_in_factor")
-    assert told([WORN])[0][2].endswith("which no life counts")
+    assert told([WORN])[0][2].endswith("not counted in the life")
 
 
 def test_the_band_of_a_bound_is_one():

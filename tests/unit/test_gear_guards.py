@@ -197,7 +197,7 @@ def test_a_third_pair_is_warned_of() -> None:
         "pinion_tip_radius_mm": 72.9,
         "wheel_tip_radius_mm": 106.6,
     }
-    text = "a third pair of teeth comes to bear"
+    text = "a third pair of teeth carries load here"
     assert text in " ".join(life(gears(gear, 1500.0, 0.05, 1.0)).warnings)
     assert text not in " ".join(wearsim.load_case(FZG, ["load.torque_N_m=2000"]).warnings)
 

@@ -88,7 +88,7 @@ def test_flank_is_refined_until_the_tolerance_holds() -> None:
     found, requested = settled(LIVES, 0.02)
     assert requested == ["own", "half", "fine ends", "level 1"]
     assert found.run.life == 1.002 and 0.002 < found.error <= 0.02
-    assert "100, chosen for the tolerance; on the 10 of the case" in found.assumptions()[0]
+    assert "100, chosen for the tolerance; with the 10 of the case" in found.assumptions()[0]
     assert found.warnings(0.02) == []
 
 

@@ -32,7 +32,7 @@ STRAND, WRAP, TABLE, POINTS = (
     ],
 )
 def test_tables_within_one_another(deep):
-    with pytest.raises(CaseError, match=r"deep\.toml:2: at most 20 tables or lists may lie within"):
+    with pytest.raises(CaseError, match=r"deep\.toml:2: tables and lists may be nested at most 20 deep"):
         load_case(CaseText(Path("deep.toml"), f"format_version = 1\n{deep}\n"))
 
 
@@ -40,7 +40,7 @@ def test_tables_within_one_another(deep):
     "setting", [".".join(["chain"] * 1500) + "=1", f"chain.pitch_mm={'[' * 50}{']' * 50}"]
 )
 def test_tables_within_one_another_on_the_command_line(setting):
-    with pytest.raises(CaseError, match="--set chain: at most 20 tables or lists may lie within"):
+    with pytest.raises(CaseError, match="--set chain: tables and lists may be nested at most 20 deep"):
         load_case(STRAND, [setting])
 
 

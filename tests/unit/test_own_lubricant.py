@@ -31,7 +31,7 @@ def test_it_wears_as_its_numbers_given_as_keys():
     by_keys = keys.with_({"wear.condition": "hardened, oiled"})
     assert own.wear == by_keys.wear
     assert wearsim.simulate(own).life == wearsim.simulate(by_keys).life
-    assert "lubricant 'mine' is the user's: own rig" in own.assumptions
+    assert "lubricant 'mine' is user-defined: own rig" in own.assumptions
 
 
 def test_more_of_it_lasts_longer():
@@ -45,14 +45,17 @@ def test_more_of_it_lasts_longer():
 @pytest.mark.parametrize(
     ("values", "words"),
     [
-        ({"name": "drip"}, "name: must be a name that the catalogue does not have (got 'drip')"),
+        ({"name": "drip"}, "name: must not be a name of the catalogue (got 'drip')"),
         ({"wear_condition": "oiled"}, "wear_condition: no such wear condition"),
         ({"supply": "spray"}, "supply: must be 'applied', 'continuous', 'none' (got 'spray')"),
         ({"source": " "}, "source: must say where the numbers come from"),
         ({"dry_factor": 0.5}, "dry_factor: must be greater than or equal to 1 (got 0.5)"),
         ({"contamination_removed": 2.0}, "contamination_removed: must be less than or equal to 1"),
         ({"lasts_sliding_m": -1.0}, "lasts_sliding_m: must be"),
-        ({"lasts_sliding_m": 1.0, "dry_factor": None}, "dry_factor: must be given of a lubricant that lasts"),
+        (
+            {"lasts_sliding_m": 1.0, "dry_factor": None},
+            "dry_factor: must be given for a lubricant with a limited life",
+        ),
     ],
 )
 def test_a_wrong_row_is_refused(values, words):

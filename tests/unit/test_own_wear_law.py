@@ -38,7 +38,7 @@ def test_a_case_takes_its_constants_and_says_so():
     assert case.inputs["wear"]["constants"] == {"k": 1e-10}
     assert "wear.constants.k = 1e-10 (wear law 'mine')" in case.assumptions
     assert "wear.coefficient = 1 (factor on wear law 'mine')" in case.assumptions
-    assert "wear law 'mine' is a function of the program: own rig" in case.assumptions
+    assert "wear law 'mine' is a user-defined function: own rig" in case.assumptions
     assert case.tables.wear.constants == {"k": 1e-10}
 
 
@@ -53,12 +53,13 @@ def test_its_constants_go_with_the_law():
     ("changes", "words"),
     [
         ({"wear.constants.q": 1.0}, "wear.constants.q: wear law 'mine' has no such constant (it has: k)"),
-        ({"wear.constants.k": 1e-7}, "wear.constants.k: must lie in 1e-12 to 1e-08, in which the law holds"),
+        ({"wear.constants.k": 1e-7},
+            "wear.constants.k: must lie in 1e-12 to 1e-08, the range in which the law holds"),
         ({"wear.constants.k": "a"}, "wear.constants.k: must be a number"),
         ({"wear.law": "mina"}, "wear.law: must be 'archard', 'power', 'drozdov' or 't_gamma'"),
         ({"wear.law": "power", "wear.coefficient": 1, "wear.pressure_exponent": 1, "wear.constants.k": 1},
-         "wear.constants: belongs to a wear law of the program"),
-        ({"sprocket.profile": "iso606"}, "wear.law: asks for the pressure and the slip of a contact that"),
+         "wear.constants: belongs to a user-defined wear law"),
+        ({"sprocket.profile": "iso606"}, "wear.law: needs the pressure and the slip of a travelling"),
         ({"duty": [{"share_of_time": 0.5, "tension_N": 2000, "speed_rpm": 50},
                    {"share_of_time": 0.5, "tension_N": 1000, "speed_rpm": 50}]},
          "wear.law: holds for one constant load"),
@@ -72,7 +73,7 @@ def test_a_case_that_does_not_go_with_it_is_refused(changes, words):
 
 def test_it_is_not_run_cycle_by_cycle():
     with pytest.raises(
-        wearsim.CaseError, match=r"run\.method: must be 'advance' with a wear law of the program"
+        wearsim.CaseError, match=r"run\.method: must be 'advance' with a user-defined wear law"
     ):
         wearsim.simulate(wearsim.load_case(CASE).with_({"run.method": "per_cycle"}))
 

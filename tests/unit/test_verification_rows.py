@@ -41,7 +41,7 @@ def test_inputs_stand_as_they_were_given():
     ("key", "value", "label", "told"),
     [
         ("load__power_kW", "10 hp", "load as given", "10 hp at 120 rpm"),
-        ("drive__service_factor", 1.95, "shock class", "f1 = 1.95, which is no class of ISO 10823"),
+        ("drive__service_factor", 1.95, "shock class", "f1 = 1.95, not a class of ISO 10823"),
         ("drive__service_factor", 1.8, "shock class", "heavy shocks (f1 = 1.8"),
         ("service__hours_per_day", 7.5, "running time", "7.5 h a day"),
         ("lubrication__environment", "dust", "lubrication", "drip, environment dust"),
@@ -57,7 +57,7 @@ def test_what_is_not_given_says_so():
     few = {key: table for key, table in CONVEYOR.items() if key not in ("drive", "service", "lubrication")}
     drive = wearsim.load_case({**few, "drive": {"links": 124}, "wear": {"condition": "hardened, oiled"}})
     given = dict(given_rows(drive.inputs, drive.driver.case))
-    assert given["shock class"].startswith("not given: f1 = 1 is taken")
+    assert given["shock class"].startswith("not given: f1 = 1 is assumed")
     assert given["running time"] == "not given"
     assert given["lubrication"] == "type not given, wear condition 'hardened, oiled'"
     assert given["centre distance"].startswith("not prescribed; 124 links give 802.19 mm")

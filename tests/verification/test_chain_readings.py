@@ -193,7 +193,7 @@ def test_readings_off_one_line_widen_the_intervals(drive, table):
     ]
     found = chain_state(loaded, table(*rows))
     assert found.posterior.scale > 5.0
-    assert any("as far from one line" in text for text in found.warnings)
+    assert any("as much as their errors say" in text for text in found.warnings)
 
 
 def test_a_gauge_that_comes_out_again_is_named(drive, table):
@@ -353,7 +353,7 @@ def test_days_before_the_chain_was_new_are_named(table):
 
 @pytest.mark.parametrize(
     ("given", "message"),
-    [({"lubricant": "drip"}, "supplied all the time"), ({"lubricant": "greased"}, "lasts_hours")],
+    [({"lubricant": "drip"}, "supplied continuously"), ({"lubricant": "greased"}, "lasts_hours")],
 )
 def test_a_log_of_a_lubricant_that_is_not_renewed_is_named(table, given, message):
     rows = table("150,relubrication,,,,", "400,elongation_percent,1.0,,,")

@@ -295,7 +295,9 @@ def test_life_ends_where_the_slack_tension_needed_reaches_its_limit() -> None:
 
 
 def test_what_a_new_drive_needs_cannot_be_the_limit() -> None:
-    with pytest.raises(CaseError, match=r"min_slack_tension_N: must be above what a new drive needs"):
+    with pytest.raises(
+        CaseError, match=r"min_slack_tension_N: must be above the slack tension at which a new drive jumps"
+    ):
         wrap(*MARGIN, "stop.min_slack_tension_N=0.01")
 
 

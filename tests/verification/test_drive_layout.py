@@ -135,7 +135,7 @@ def test_given_by_distance_or_by_links_is_one_drive() -> None:
         assert layout_with_centre(7.774, 12, 82, centre) == taut
     assert layout_with_centre(7.774, 12, 82, 202.85).links == 106
     assert DriveLayout(7.774, 12, 82, 104, 202.8).links == 104
-    with pytest.raises(GeometryError, match=r"needs 104\.0196 links, are 104: use 106"):
+    with pytest.raises(GeometryError, match=r"needs 104\.0196 links, has 104: use 106"):
         DriveLayout(7.774, 12, 82, 104, 202.848)
 
 
@@ -307,7 +307,7 @@ def test_tensions_of_case_b() -> None:
 @pytest.mark.parametrize(
     ("pitch", "teeth", "links", "message"),
     [
-        (12.7, (19, 57), 57, "exceed the 57 teeth of the larger sprocket, are 57"),
+        (12.7, (19, 57), 57, "exceed the 57 teeth of the larger sprocket, is 57"),
         (12.7, (19, 57), 39, "exceed the 57 teeth"),
         (12.7, (19, 57), 58, "use 68 links or more"),
         (12.7, (4, 57), 120, "at least 5 teeth"),
@@ -335,7 +335,7 @@ def test_chain_must_reach_but_may_sag() -> None:
     taut = layout_with_links(25.4, 27, 51, 100)
     assert round(taut.centre_distance) == 769
     assert DriveLayout(25.4, 27, 51, 100, 767.0).wrap_angle_1 < taut.wrap_angle_1
-    with pytest.raises(GeometryError, match=r"needs 100\.1118 links, are 100: use 102"):
+    with pytest.raises(GeometryError, match=r"needs 100\.1118 links, has 100: use 102"):
         DriveLayout(25.4, 27, 51, 100, 770.0)
 
 

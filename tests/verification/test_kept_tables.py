@@ -128,7 +128,7 @@ def test_the_length_of_the_new_chain_is_the_baseline(state):
     (reading,) = found.log.readings
     assert reading.low == pytest.approx(0.4, rel=1e-9)
     assert reading.error == pytest.approx(100 * 0.5 / 610, rel=1e-9)
-    assert any("from that of the new chain, +0.066 % over its pitch" in text for text in found.assumptions)
+    assert any("length of the new chain, +0.066 % from nominal" in text for text in found.assumptions)
 
 
 @pytest.mark.parametrize(

@@ -176,11 +176,13 @@ def test_what_does_not_fit_is_told_with_what_would() -> None:
     wheels = Wheel("driver", (0.0, 0.0), 20), Wheel("driven", (50.1 * PITCH, 0.0), 20)
     drive = LoopDrive(ChainLoop(PITCH, wheels), (1.0, -1.0))
     with pytest.raises(
-        CaseError, match=r"take 120\.2 links; 120 are 2\.54 mm too short, 0\.17 % of"
+        CaseError, match=r"need 120\.2 links; 120 links are 2\.54 mm too short, 0\.17 % of"
     ) as error:
         loop_layout(drive, 120)
-    assert str(error.value).endswith(f"or set the wheels apart by {50 * PITCH:.3f} mm for 120")
-    with pytest.raises(CaseError, match=r"too short.*; 122 let the span 'driver' to 'driven' sag by 11\.6 %"):
+    assert str(error.value).endswith(f"or set the centre distance to {50 * PITCH:.3f} mm for 120 links")
+    with pytest.raises(
+        CaseError, match=r"too short.*; with 122 links the span 'driver' to 'driven' sags by 11\.6 %"
+    ):
         loop_layout(drive)
     assert loop_layout(drive, 121).links == 121
 
@@ -230,9 +232,9 @@ def test_what_cannot_run_is_refused() -> None:
     loop = ChainLoop(PITCH, tuple(wheels))
     with pytest.raises(CaseError, match="must sum to 1 and those of driven wheels to -1"):
         loop_forces(loop, 100.0, (1.0, -0.5, -0.4), SpanLevel(10.0, span=0))
-    with pytest.raises(CaseError, match="every span must be pulled, 'a' to 'b' would have -70 N"):
+    with pytest.raises(CaseError, match="every span must be in tension, 'a' to 'b' would have -70 N"):
         loop_forces(loop, 100.0, (1.0, -0.8, -0.2), SpanLevel(10.0, span=1))
     across = loop.directions[1] - loop.directions[0]
     level = SpanLevel(10.0, wheel=1, direction=(float(across[1]), -float(across[0])))
-    with pytest.raises(CaseError, match="'b' must stretch the chain, acts across"):
+    with pytest.raises(CaseError, match="'b' must tension the chain, but acts across"):
         loop_forces(loop, 100.0, (1.0, -0.8, -0.2), level)

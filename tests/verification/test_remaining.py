@@ -127,12 +127,16 @@ def test_a_life_that_was_not_reached_stays_a_bound():
 @pytest.mark.parametrize(
     ("base", "reading", "message"),
     [
-        (STRAND, SingleReading(DEPTH, 0.06, 0.001, 100.0), "at most 0.05, where the limit is reached"),
+        (
+            STRAND,
+            SingleReading(DEPTH, 0.06, 0.001, 100.0),
+            "at most 0.05, its value when the limit is reached",
+        ),
         (STRAND, SingleReading(DEPTH, 0.02, 0.02, 100.0), "larger than its error of 0.02"),
         (STRAND, SingleReading(ELONGATION, 1.0, 0.05, 100.0), "set kind = 'wrap'"),
         (STRAND, SingleReading(OVER_PINS, 0.1, 0.02, 100.0), "set kind = 'wrap'"),
-        (WRAP, SingleReading(ELONGATION, 3.1, 0.05, 100.0), "at most 3, where the limit is reached"),
-        (WRAP, SingleReading(OVER_PINS, 0.02, 1e-9, 100.0), "over pins grows again"),
+        (WRAP, SingleReading(ELONGATION, 3.1, 0.05, 100.0), "at most 3, its value when the limit is reached"),
+        (WRAP, SingleReading(OVER_PINS, 0.02, 1e-9, 100.0), "over pins increases again"),
     ],
 )
 def test_readings_that_say_nothing_are_refused(base, reading, message):

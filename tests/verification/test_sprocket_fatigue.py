@@ -186,9 +186,9 @@ def test_which_governs(strand: Callable[..., dict[str, Any]], rate: float, first
     assert result.governing == first
     assert result.summary()["governing_life"] == first
     assert result.summary()["governing_life_hours"] == min(result.life.hours, fatigue)
-    told = [text for text in result.warnings if "contact fatigue of the sprocket comes" in text]
+    told = [text for text in result.warnings if "contact fatigue of the sprocket ends the life" in text]
     assert len(told) == (first != "wear")
-    assert all("before the wear" in text and "it governs" in text for text in told)
+    assert all("before wear" in text and "it governs" in text for text in told)
 
 
 def test_a_stress_below_the_limit_is_endured_for_ever(strand: Callable[..., dict[str, Any]]) -> None:
@@ -212,9 +212,9 @@ def test_a_stress_above_all_life_factors_is_allowed_at_no_time(strand: Callable[
     )
     assert above.parts["sprocket_fatigue"] == Life(0.0, 0.0)
     assert above.governing == "sprocket_fatigue"
-    assert "more than the sprocket endures for any time" in " ".join(above.warnings)
+    assert "too high for the sprocket from the start" in " ".join(above.warnings)
     assert below.parts["sprocket_fatigue"].hours > 0.0
-    assert "for any time" not in " ".join(below.warnings)
+    assert "from the start" not in " ".join(below.warnings)
 
 
 def test_no_limit_within_the_run_leaves_open_which_governs(strand: Callable[..., dict[str, Any]]) -> None:
@@ -238,7 +238,7 @@ def test_a_chain_that_is_first_does_not_hide_the_fatigue_of_the_sprocket() -> No
     fatigue = result.parts["sprocket_fatigue"].hours
     assert result.parts["chain"].hours < fatigue < result.parts["sprocket"].hours_run
     assert result.governing == "wear"
-    assert "contact fatigue of the sprocket comes before its own wear" in " ".join(result.warnings)
+    assert "contact fatigue of the sprocket ends its life before wear" in " ".join(result.warnings)
 
 
 def test_hardness_outside_its_formula_is_told(strand: Callable[..., dict[str, Any]]) -> None:

@@ -160,7 +160,7 @@ def export(
     states = STATES[state or ("new" if result is None else "both")]
     forms = [_format(out, WHEELS), _format(template, DRAWINGS)]
     if forms[0] and WHEELS[forms[0]].one_state and len(states) > 1:
-        raise OutputError(f"{out}: must hold one state of the wheel, but two are given: take new or worn")
+        raise OutputError(f"{out}: must hold one state of the wheel, but two are given: choose new or worn")
     check_solid(case, forms[0])
     for place in (out, template):
         if place is not None:
@@ -186,7 +186,7 @@ def _case(source: CaseInput | WearResult | DriveLife, sprocket: str | None) -> t
     if sprocket not in cases:
         names = " or ".join(f"sprocket={name!r}" for name in cases)
         text = "must name one wheel of the drive" + (f" (got {sprocket!r})" if sprocket else "")
-        raise CaseError([Fault(f"{text}: give {names}, one call a wheel", "sprocket", found.name)])
+        raise CaseError([Fault(f"{text}: give {names}, one call per wheel", "sprocket", found.name)])
     return cases[sprocket], source.results[sprocket] if isinstance(source, DriveLife) else None
 
 

@@ -61,7 +61,7 @@ def gauge_sheet(case: Case, result: WearResult, form: str) -> bytes:
     """Return the gauge of a case as the content of a file."""
     if not is_worn_out(result):
         message = (
-            f"a limit of the teeth must be reached for a gauge of it, but none is within "
+            f"a gauge needs a tooth limit that is reached, but none is within "
             f"{grouped(result.hours_run)} h: lower the limit, or give one under [stop]"
         )
         raise CaseError([Fault(message, "stop", case.name)])
@@ -99,7 +99,7 @@ def _sheet(gauges: list[GaugeOutline], text: list[str]) -> tuple[float, float, l
             return width, height, lines
     raise GeometryError(
         f"gauge: must fit on a sheet of {_SHEETS[-1][0]:g} by {_SHEETS[-1][1]:g} mm, is {wide:.0f} by "
-        f"{tall:.0f} mm: take --out with --state worn instead"
+        f"{tall:.0f} mm: use --out with --state worn instead"
     )
 
 
@@ -148,23 +148,23 @@ def _check(x: float, y: float) -> list[Shape]:
 def _text(case: Case, result: WearResult, gauges: list[GaugeOutline]) -> list[str]:
     depth = float(flanks(result, -1)["depth_mm"].max())
     coarse = (
-        f" {depth:.2g} mm is less than paper shows surely: have it cut from the DXF file."
+        f" {depth:.2g} mm is too little for paper to show reliably: have it cut from the DXF file."
         if depth < _COARSE
         else ""
     )
     return [
         f"Go/no-go gauge of wear: {case.title} (case {case.name}; {case.drive.teeth_in_words(case)})",
-        f"Worn out at {_limit(case, result)}, {depth:.3g} mm off at the deepest point. There the gauge "
-        f"reaches as far as such a gap; elsewhere on side W it keeps {gauges[0].clearance:.2g} mm off "
-        "the new tooth.",
+        f"Worn out at {_limit(case, result)}, {depth:.3g} mm of wear at the deepest point. There the gauge "
+        f"has the shape of such a gap; elsewhere side W clears the new tooth by {gauges[0].clearance:.2g} "
+        "mm.",
         "1. Print at 100 % (actual size, no fit to page). The bar must measure 50 mm and the square 10 mm "
-        "by 10 mm, else do not use this sheet.",
-        f"2. Cut stiff paper or sheet metal along the middle of the full line.{coarse} Clean the teeth.",
+        "by 10 mm, otherwise do not use this sheet.",
+        f"2. Cut stiff paper or sheet metal along the middle of the solid line.{coarse} Clean the teeth.",
         f"3. Push it in from above along the arrow{_slants(gauges)}: edge W to the side of the gap that "
-        "carries the load, edge U to the other, both shoulders on the tips. Try the gap worn most."
+        "carries the load, edge U to the other, both shoulders on the tips. Check the most worn gap."
         f"{_edge(gauges)}",
-        "4. Good: it does not go in, or only with a shoulder off its tip. Worn out, replace: it goes in "
-        "with both shoulders on the tips; light along W then shows wear beyond the limit.",
+        "4. Good: it does not go in far enough for both shoulders to touch the tips. Worn out, replace: "
+        "both shoulders touch the tips; light along W then shows wear beyond the limit.",
         f"Dashed: the new tooth. Dash-dotted: the pitch circle. wearsim {__version__}",
     ]
 
@@ -179,7 +179,7 @@ def _edge(gauges: list[GaugeOutline]) -> str:
     """What a rounded tip does to a gauge that touches no more of the tooth that is not loaded."""
     if not any(one.on_edge for one in gauges):
         return ""
-    return " It touches the edge of tip U: where that is rounded off, it shows more wear than there is."
+    return " It touches the edge of tip U: if that is rounded, it shows more wear than there is."
 
 
 def _limit(case: Case, result: WearResult) -> str:

@@ -38,8 +38,8 @@ def check_solid(case: Case, form: str | None) -> None:
     if form is not None and WHEELS[form].solid and not all(shape.new[0].rooted for shape in shapes):
         flat = either(name for name, wheel in WHEELS.items() if not wheel.solid)
         message = (
-            "the outline of both gears must be closed to be solids, but the case tells no root of their "
-            f"teeth: take --format {flat}, which hold the flanks"
+            "the outlines of both gears must be closed for a solid, but the case gives no tooth root: use "
+            f"--format {flat}, which hold the flanks"
         )
         raise CaseError([Fault(message, "gear", case.name)])
 
@@ -79,5 +79,5 @@ def _condition(result: WearResult | None, states: Sequence[State]) -> str:
     if result is None:
         return "New."
     both = "New, and worn" if len(states) > 1 else "Worn"
-    deepest = f"{result.max_depth:.3g} mm off at the deepest point"
+    deepest = f"{result.max_depth:.3g} mm worn at the deepest point"
     return f"{both} after {grouped(result.hours_run)} h: {deepest}."

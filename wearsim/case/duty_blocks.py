@@ -81,9 +81,9 @@ def _regime(case: ChainRecord, block: GivenLoad) -> tuple[GivenLoad, ...]:
         return (block,)
     parts = regimes()[name]
     case.assumptions.append(
-        f"typical regime {name}: the load given is the highest, "
+        f"typical regime {name}: the load given is its highest; "
         + ", ".join(f"{part:.3g} of it for {100 * share:.3g} %" for part, share in parts)
-        + " of the cycles, a distribution with the published coefficients of equivalence"
+        + " of the cycles, which reproduces the published equivalence factors"
     )
     _say_heaviest(case, len(parts))
     return tuple(replace(block, share=share, part=part) for part, share in parts)
@@ -95,7 +95,7 @@ def _given(case: ChainRecord, kind: str) -> GivenDuty | None:
     before, blocks = faults.count, tables.duty
     for key in sorted(tables.load.model_fields_set):
         if getattr(tables.load, key) is not None:
-            faults.add(f"load.{key}", "[[duty]] gives load and speed: remove one of both")
+            faults.add(f"load.{key}", "[[duty]] gives load and speed: remove one of the two")
     kinds = ("share_of_time", "share_of_cycles")
     first = next(kind for kind in kinds if getattr(blocks[0], kind) is not None)
     for number, block in enumerate(blocks, start=1):
@@ -103,11 +103,14 @@ def _given(case: ChainRecord, kind: str) -> GivenDuty | None:
             faults.add(
                 f"duty.{number}.applies_to",
                 f"joints wear only where a chain wraps the sprocket, here kind = {kind!r}: "
-                "take 'all' or 'teeth', or mechanism.kind = 'wrap'",
+                "use 'all' or 'teeth', or set mechanism.kind = 'wrap'",
             )
         if getattr(block, first) is None:
             other = kinds[1 - kinds.index(first)]
-            faults.add(f"duty.{number}.{other}", f"all blocks must give the same share, block 1 has {first}")
+            faults.add(
+                f"duty.{number}.{other}",
+                f"all blocks must give their share by the same key, in block 1 it is {first}",
+            )
     if faults.count > before:
         return None
     shares = [getattr(block, first) for block in blocks]
@@ -122,7 +125,7 @@ def _given(case: ChainRecord, kind: str) -> GivenDuty | None:
         _load_block(block, number, share)
         for number, (block, share) in enumerate(zip(blocks, cycles, strict=True), start=1)
     )
-    case.assumptions.append(f"speed {speed:.6g} rpm is the mean over the time of the duty")
+    case.assumptions.append(f"speed {speed:.6g} rpm is the time average of the duty")
     _say_heaviest(case, len(found))
     return GivenDuty(found, speed, found)
 
@@ -203,6 +206,6 @@ def _logged(case: ChainRecord, most_blocks: int, chain: Chain) -> GivenDuty | No
 def _say_heaviest(case: ChainRecord, count: int) -> None:
     if count > 1:
         case.assumptions.append(
-            f"wear in a cycle is the mean over {count} blocks of the duty, weighted by their cycles; "
-            "pressure is that of the heaviest one"
+            f"wear per cycle is the mean over {count} blocks of the duty, weighted by their cycles; "
+            "pressure is that of the heaviest block"
         )

@@ -65,13 +65,13 @@ def _within_strength(case: ChainRecord, found: LogFile, name: str, chain: Chain)
 
 
 def _summary(name: str, found: LogFile, sorted_in: list[LogBin], blocks: list[LogBin]) -> str:
-    held = f"every row holds {'for one step at most' if found.gaps else 'until the next'}"
+    held = f"each row counts {'for one step at most' if found.gaps else 'until the next'}"
     text = f"{name}: {found.duration:.6g} s, {held}, {len(sorted_in)} blocks"
     if len(blocks) < len(sorted_in):
         square = [sum(b.revolutions * b.load**2 for b in part) for part in (blocks, sorted_in)]
         text += (
-            f", the smallest joined with their neighbours to {len(blocks)}, which keeps time, cycles and "
-            f"mean load and takes {100 * (1 - square[0] / square[1]):.2g} % off its mean square"
+            f", the smallest merged with their neighbours to leave {len(blocks)}, which keeps time, cycles "
+            f"and mean load and lowers the mean square load by {100 * (1 - square[0] / square[1]):.2g} %"
         )
     if found.renamed:
         text += f"; columns {', '.join(found.renamed)} are read as {' and '.join(found.renamed.values())}"
@@ -83,8 +83,8 @@ def _say_gaps(case: ChainRecord, name: str, found: LogFile) -> None:
     if not found.gaps:
         return
     text = (
-        f"{name}: {found.gaps} of the steps are much longer than the usual one of {found.usual:.4g} s: the "
-        f"row before holds for that, the rest, {found.missing:.6g} s, counts as standstill"
+        f"{name}: {found.gaps} steps are much longer than the usual {found.usual:.4g} s: the row before "
+        f"each counts for that time, the remaining {found.missing:.6g} s count as standstill"
     )
     if found.even:
         case.assumptions.append(text)
@@ -99,17 +99,18 @@ def _say_stops(case: ChainRecord, name: str, found: LogFile) -> None:
         return
     per_hour = found.duration / found.running
     case.assumptions.append(
-        f"{name}: the drive stands for {100 * standing:.3g} % of the time, which counts no cycles and no "
-        f"running hours: 1000 running hours take {1000 * per_hour:.4g} h with the stops"
+        f"{name}: the drive stands still for {100 * standing:.3g} % of the time, which adds no cycles and "
+        f"no running hours: 1000 running hours take {1000 * per_hour:.4g} h including stops"
     )
     day = case.tables.service.hours_per_day if case.tables.service else None
     if day is None:
         return
     text = (
-        f"service.hours_per_day = {day:g} running hours take {day * per_hour:.4g} h with the stops of {name}"
+        f"service.hours_per_day = {day:g} running hours take {day * per_hour:.4g} h including the stops of "
+        f"{name}"
     )
     if day * per_hour > _DAY * (1.0 + _ROUNDING):
-        case.warnings.append(f"{text}, more than a day has: give the running hours alone")
+        case.warnings.append(f"{text}, more than a day has: give the running hours without stops")
     else:
         case.assumptions.append(text)
 
@@ -119,13 +120,13 @@ def _say_reverse(case: ChainRecord, name: str, blocks: list[LogBin], reverse: li
     ahead, turned = (math.fsum(block.revolutions for block in part) for part in (blocks, reverse))
     case.assumptions.append(
         f"{name}: for {100 * turned / (ahead + turned):.3g} % of the cycles the load is negative: tight and "
-        "slack strand change places, the joints wear under the size of the load, and the teeth wear on their "
-        "other flank, which is not calculated"
+        "slack strands swap, the joints wear under the absolute load, and the teeth wear on the other "
+        "flank, which is not calculated"
     )
     work, more = (math.fsum(block.revolutions * block.load for block in part) for part in (blocks, reverse))
     if more > work:
         case.warnings.append(
-            f"{name}: negative loads do {more / work:.3g} times the work of positive ones, so that the other "
-            "flank of the teeth wears faster than the one calculated: reverse the signs of the log to "
-            "calculate that, and the role of a sprocket that a chain wraps"
+            f"{name}: negative loads do {more / work:.3g} times the work of positive ones, so the other "
+            "flank of the teeth wears faster than the one calculated: to calculate that one, reverse the "
+            "signs of the log and, on a wrap, the role of the sprocket"
         )

@@ -437,7 +437,7 @@ class Case(ReadTables):
         from wearsim.input.changes import changed
 
         if self.given is None:
-            text = "must be changed as a whole: this is one sprocket of a drive, take with_ of the drive"
+            text = "must be changed as a whole: this is one sprocket of a drive, use with_ of the drive"
             raise CaseError([Fault(text, "", self.name)])
         document = read_document(changed(self.given, changes), ())
         found: Case = read_case(document)

@@ -124,28 +124,28 @@ def points_tooth(
     end, start = table.contact_end_mm, table.contact_start_mm
     if end is None:
         end = float(f"{reached[0]:.6g}")
-        case.take("sprocket.contact_end_mm", end, "where the flank's root end is touched")
+        case.take("sprocket.contact_end_mm", end, "where the roller touches the root end of the flank")
     if start is None:
         start = float(f"{reached[1]:.6g}")
-        case.take("sprocket.contact_start_mm", start, "where the flank's tip end is touched")
+        case.take("sprocket.contact_start_mm", start, "where the roller touches the tip end of the flank")
     ratio = contact_ratio(end, start, chain.pitch)
     if not 1.0 < ratio < 2.0:
         faults.add(
             "sprocket.contact_start_mm" if table.contact_start_mm else "sprocket.points_file",
             "contact ratio (contact_start - contact_end) / pitch must lie between 1 and 2, is "
-            f"{ratio:.4g}: a longer flank, or contact_start_mm = {end + 1.05 * chain.pitch:.6g}",
+            f"{ratio:.4g}: give a longer flank, or contact_start_mm = {end + 1.05 * chain.pitch:.6g}",
         )
         return None
     if abs(rotation) > _PHASE_TOLERANCE:
         case.warnings.append(
-            f"the points are turned by {math.degrees(rotation):.3g} degrees against a gap centred on +y: "
-            "turned back for the tooth around them"
+            f"the points are rotated by {math.degrees(rotation):.3g} degrees from a gap centred on +y; they "
+            "are rotated back to build the tooth"
         )
         flank = flank.rotated(-rotation)
     _check_reach(case, (end, start), reached, 0.01 * chain.pitch)
     case.assumptions.append(
-        "the flank is a quintic smoothing spline through the points, their error taken as "
-        f"{noise:g} mm; no check that the flank is conjugate to the roller"
+        f"the flank is a quintic smoothing spline through the points, whose error is assumed as {noise:g} "
+        "mm; whether the flank is conjugate to the roller is not checked"
     )
     if "back_flank" not in table.model_fields_set:
         case.take("sprocket.back_flank", table.back_flank, "default")
@@ -162,12 +162,13 @@ def _check_reach(
     if end < root - tolerance:
         case.faults.add(
             "sprocket.contact_end_mm",
-            f"the flank's root end is touched at {root:.6g} mm: at least that (got {end:g})",
+            f"the roller touches the root end of the flank at {root:.6g} mm: give at least that (got "
+            f"{end:g})",
         )
     if start > tip + tolerance:
         case.faults.add(
             "sprocket.contact_start_mm",
-            f"the flank's tip end is touched at {tip:.6g} mm: at most that (got {start:g})",
+            f"the roller touches the tip end of the flank at {tip:.6g} mm: give at most that (got {start:g})",
         )
 
 
@@ -255,6 +256,6 @@ def _has_keyway(hub: Hub) -> bool:
 
 def _too_deep(hub: Hub, around: str) -> str:
     return (
-        f"the corners of the keyway must lie inside the {around}, but lie on {2.0 * hub.bore_reach:.5g} mm "
+        f"the corners of the keyway must stay inside the {around}, but lie on {2.0 * hub.bore_reach:.5g} mm "
         f"(got {hub.keyway_depth:g}): give a smaller bore or keyway"
     )

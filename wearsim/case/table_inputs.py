@@ -31,10 +31,10 @@ _NAMED_DEFAULTS = {
 
 
 _SPROCKET = (
-    "contact fatigue of the sprocket by formulas (21) to (26) of source 001, which are those of gears: "
-    "that they hold for its teeth is this project's reconstruction",
-    "the stress of contact fatigue is the highest contact pressure on the new flank, once in a cycle; "
-    "loads of a duty add up by the sixth power of it (Miner), and what wear does to it is left out",
+    "contact fatigue of the sprocket by formulas (21) to (26) of source 001, which are for gears; applying "
+    "them to its teeth is this project's reconstruction",
+    "the stress for contact fatigue is the highest contact pressure on the new flank, once per cycle; the "
+    "loads of a duty add up by its sixth power (Miner), and the effect of wear on it is neglected",
 )
 
 
@@ -106,7 +106,7 @@ def _law(case: CaseRecord, table: WearTable) -> WearInput:
             f"wear.specific_wear_rate_mm2_per_N = {coefficient:g} is outside {low:g}..{high:g}: "
             "1 mm3/(N m) is 1e-3 mm2/N, so check for a factor of 1000"
         )
-    case.assumptions.append("the constants of the wear law are the user's")
+    case.assumptions.append("the constants of the wear law are given by the user")
     factor = _band_factor(case, table)
     return WearInput(
         law=table.law,
@@ -127,11 +127,14 @@ def _own_law(case: CaseRecord, table: WearTable, law: OwnWearLaw) -> WearInput:
             case.take(f"wear.constants.{name}", constant.value, f"wear law {law.name!r}")
     if table.coefficient is None:
         case.take("wear.coefficient", 1.0, f"factor on wear law {law.name!r}")
-    case.assumptions.append(f"wear law {law.name!r} is a function of the program: {law.source}")
+    case.assumptions.append(f"wear law {law.name!r} is a user-defined function: {law.source}")
     constants = {name: float(given.get(name, constant.value)) for name, constant in law.constants.items()}
     for name, value in constants.items():
         if not law.constants[name].low <= value <= law.constants[name].high:
-            text = f"{law.constants[name].low:g} to {law.constants[name].high:g}, in which the law holds"
+            text = (
+                f"{law.constants[name].low:g} to {law.constants[name].high:g}, the range in which the law "
+                "holds"
+            )
             case.faults.add(f"wear.constants.{name}", f"must lie in {text} (got {value:g})")
     factor = _band_factor(case, table)
     return WearInput(
@@ -168,7 +171,8 @@ def _band_factor(case: CaseRecord, table: WearTable) -> float:
     case.take(
         "wear.band_factor",
         DEFAULT_BAND,
-        "the coefficient is the user's; a tooth life is only as good as it, factor 3 to 10",
+        "the coefficient is given by the user; the tooth life is no more certain than it, a factor of 3 to "
+        "10",
     )
     return DEFAULT_BAND
 

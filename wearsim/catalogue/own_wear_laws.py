@@ -124,7 +124,7 @@ def wear_law(
     wear_laws()[name] = WearLawEntry(
         name,
         "law",
-        "a function of the program",
+        "a user-defined function",
         ("coefficient",),
         "one constant load on a strand, under a table of loads or on a pair of gears",
         source,
@@ -136,7 +136,7 @@ def wear_law(
 def own_constant_faults(law: OwnWearLaw | None, given: Mapping[str, float]) -> list[tuple[str, str]]:
     """Return what is wrong with the constants of a case; its law is None where it is of the catalogue."""
     if law is None:
-        return [("constants", "belongs to a wear law of the program: remove it")] if given else []
+        return [("constants", "belongs to a user-defined wear law: remove it")] if given else []
     known = ", ".join(law.constants) or "none"
     return [
         (f"constants.{name}", f"wear law {law.name!r} has no such constant (it has: {known})")

@@ -86,8 +86,8 @@ def belt_centre(teeth_1: int, teeth_2: int, links: float) -> float:
     """
     if links <= max(teeth_1, teeth_2):
         raise GeometryError(
-            f"drive layout: the links must exceed the {max(teeth_1, teeth_2)} teeth of the larger "
-            f"sprocket, are {links:g}: use more links"
+            f"drive layout: the number of links must exceed the {max(teeth_1, teeth_2)} teeth of the larger "
+            f"sprocket, is {links:g}: use more links"
         )
     centre, step = 0.5 * (links - 0.5 * (teeth_1 + teeth_2)), math.inf
     while step > 1e-12 * centre:
@@ -181,6 +181,6 @@ def odd_links_warning(links: int) -> str:
     '47 links need a cranked (offset) link,'
     """
     return (
-        f"{links} links need a cranked (offset) link, whose fatigue strength is about 35 % below the "
-        f"chain's, which is the one rated: use {links - 1} or {links + 1} links where you can"
+        f"{links} links need a cranked (offset) link, whose fatigue strength is about 35 % below that of "
+        f"the rated chain: use {links - 1} or {links + 1} links if possible"
     )

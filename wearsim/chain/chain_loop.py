@@ -220,17 +220,17 @@ def _number_faults(loop: ChainLoop) -> Iterator[str]:
     if not 0.0 <= loop.elongation < 1.0:
         yield f"the elongation must be at least 0 and below 1, is {loop.elongation:g}: 0.03 is 3 %"
     if (inside := sum(not wheel.outside for wheel in loop.wheels)) < 2:
-        yield f"two wheels or more must lie inside of the loop, {inside} do: add one"
+        yield f"at least two wheels must lie inside the loop, {inside} do: add one"
     names = [wheel.name for wheel in loop.wheels]
     for name in sorted({name for name in names if names.count(name) > 1}):
-        yield f"wheels must have names of their own, {names.count(name)} are called {name!r}: rename them"
+        yield f"wheels must have different names, {names.count(name)} are called {name!r}: rename them"
     for wheel in loop.wheels:
         if not wheel.radius and wheel.teeth < 5:
             yield f"wheel {wheel.name!r} needs at least 5 teeth, has {wheel.teeth}: use more"
         if wheel.radius and not (width := 2.0 * wheel.radius) >= (least := _least_width(loop)):
             yield (
-                f"the smooth wheel {wheel.name!r} must be at least {least:.4g} mm wide, as 5 links round it "
-                f"are, is {width:.4g} mm: use a larger one"
+                f"the smooth wheel {wheel.name!r} must be at least {least:.4g} mm in diameter, for 5 links "
+                f"round it, is {width:.4g} mm: use a larger one"
             )
         if len(wheel.centre) != 2 or not np.all(np.isfinite(wheel.centre)):
             yield f"wheel {wheel.name!r} needs a centre of two finite numbers, has {wheel.centre}: correct it"
@@ -327,7 +327,7 @@ def _path_faults(loop: ChainLoop) -> Iterator[str]:
             if not distance >= least:
                 yield (
                     f"the span {loop.span_name(i)} must clear wheel {loop.wheels[k].name!r}, runs "
-                    f"{distance:.6g} mm from its centre and needs {least:.6g} mm: move it, or lead the "
+                    f"{distance:.6g} mm from its centre and needs {least:.6g} mm: move it, or route the "
                     "chain round the wheel"
                 )
 

@@ -102,7 +102,7 @@ class DriveLayout:
         if not self.links * (1.0 + STRETCH) >= needed:
             raise GeometryError(
                 f"drive layout: a centre distance of {self.centre_distance:.6g} mm needs {needed:.7g} "
-                f"links, are {self.links}: use {even_links(needed)}"
+                f"links, has {self.links}: use {even_links(needed)}"
             )
 
     @property
@@ -190,7 +190,7 @@ def layout_with_links(pitch: float, teeth_1: int, teeth_2: int, links: int) -> D
     if centre < least:
         needed = 2 * math.ceil(0.5 * belt_links(teeth_1, teeth_2, least / pitch))
         raise GeometryError(
-            f"drive layout: the sprockets must not overlap, but {links} links leave a centre "
+            f"drive layout: the sprockets must not overlap, but {links} links give a centre "
             f"distance of {centre:.6g} mm of the {least:.6g} mm needed: use {needed} links or more"
         )
     return DriveLayout(pitch, teeth_1, teeth_2, links, centre)

@@ -40,7 +40,7 @@ def elongation_rule(layout: DriveLayout | LoopLayout) -> tuple[float, str]:
     """Return the elongation at which a chain is worn out [%], to four digits, and the rule in words."""
     # Of two wheels the centre distance is adjusted; a loop has a take-up or none.
     fixed = isinstance(layout, LoopLayout) and layout.drive.take_up is None
-    most = f"{100.0 * greatest_elongation(not fixed):g} %{' as nothing takes up' if fixed else ''}"
+    most = f"{100.0 * greatest_elongation(not fixed):g} %{' without a take-up' if fixed else ''}"
     return float(f"{100.0 * elongation_limit(max(layout.all_teeth), not fixed):.4g}"), most
 
 

@@ -154,8 +154,8 @@ def joint_pressure(pull: float, bearing_area: float, strands: int = 1, applicati
     """
     if not bearing_area > 0.0:
         message = (
-            f"joint pressure: the bearing area must be above 0, is {bearing_area:g} mm2: take it "
-            "from the catalogue of the chain's maker"
+            f"joint pressure: the bearing area must be above 0, is {bearing_area:g} mm2: use the value of "
+            "the chain maker's catalogue"
         )
         raise CaseError([Fault(message)])
     return pull * application * strands / (bearing_area * strand_factor(strands, "GOST"))

@@ -168,7 +168,7 @@ def extrapolation(law: JointLaw, state: JointState) -> str:
     --------
     >>> law = JointLaw(1e-10, 2.0, 0.7, 0.0, 20.0, 800.0, 12.7)
     >>> extrapolation(law, JointState(40.0, 600.0, 12.7))
-    'beyond what the rate was found for: joint pressure 40 MPa (11.6 to 21.8 MPa)'
+    'rate extrapolated from its sources: joint pressure 40 MPa (11.6 to 21.8 MPa)'
     """
     found = [
         f"{name} {value:.4g} {unit} ({low * at:.3g} to {high * at:.4g} {unit})"
@@ -177,7 +177,7 @@ def extrapolation(law: JointLaw, state: JointState) -> str:
         )
         if not low * at * (1.0 - 1e-9) <= value <= high * at * (1.0 + 1e-9)
     ]
-    return f"beyond what the rate was found for: {', '.join(found)}" if found else ""
+    return f"rate extrapolated from its sources: {', '.join(found)}" if found else ""
 
 
 def joint_band(
@@ -237,7 +237,7 @@ def joint_band(
     band = _together(spreads)
     if law.is_constant and not of_condition.is_constant:
         off = of_condition.rate(*state) / condition.joint_typical
-        why = f"a constant rate, where law = 'pressure_speed' gives {off:.3g} times as much"
+        why = f"a constant rate, while law = 'pressure_speed' gives {off:.3g} times as much"
         return JointBand(band.low * min(off, 1.0), band.high * max(off, 1.0), f"{band.source}; {why}")
     return band
 

@@ -214,15 +214,17 @@ def loop_forces(
         right[count] = -level.force
         if abs(along[level.wheel] - along[level.wheel - 1]) < 1e-6:
             name = loop.wheels[level.wheel].name
-            message = f"the force on wheel {name!r} must stretch the chain, acts across its spans: turn it"
+            message = (
+                f"the force on wheel {name!r} must tension the chain, but acts across its spans: change its "
+                "direction"
+            )
             raise CaseError([Fault(f"chain loop: {message}")])
     found: Floats = np.array(np.linalg.solve(matrix, right)[:count], float)
     if found.min() <= 0.0:
         span = loop.span_name(int(found.argmin()))
         message = (
-            f"every span must be pulled, {span} would have {found.min():.4g} N: use more tension at the "
-            "take-up, let its force act the other way, or put it on the slack side, where the chain leaves "
-            "a driver"
+            f"every span must be in tension, {span} would have {found.min():.4g} N: use more tension at the "
+            "take-up, reverse its force, or put it on the slack side, where the chain leaves a driver"
         )
         raise CaseError([Fault(f"chain loop: {message}")])
     return LoopForces(loop, found, centrifugal, friction_lever, tuple(bool(one) for one in idle))

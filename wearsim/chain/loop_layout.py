@@ -205,7 +205,7 @@ def loop_layout(drive: LoopDrive, links: int | None = None) -> LoopLayout:
         return layout
     found = "; ".join(_misfit(replace(layout, links=number)) for number in numbers)
     message = (
-        f"a whole number of links must fit: the wheels as they stand take {fits:.7g} links; {found}: "
+        f"a whole number of links must fit: the wheels as placed need {fits:.7g} links; {found}: "
         f"{_remedy(drive.loop, numbers)}"
     )
     raise CaseError([Fault(f"chain loop: {message}")])
@@ -216,14 +216,14 @@ def _misfit(layout: LoopLayout) -> str:
     loop, short = layout.loop, -layout.excess / layout.links
     if short > STRETCH:
         return (
-            f"{layout.links} are {-layout.excess * layout.pitch:.3g} mm too short, {100.0 * short:.2g} % of "
-            f"their length of which stretch may take up {100.0 * STRETCH:g} %"
+            f"{layout.links} links are {-layout.excess * layout.pitch:.3g} mm too short, "
+            f"{100.0 * short:.2g} % of their length, and can stretch by {100.0 * STRETCH:g} %"
         )
     loosest = looser_span(loop, layout.drive.shares)
     sag = layout.sag(loosest)
     if sag > LARGEST_SAG:
         span = loop.span_name(loosest)
-        return f"{layout.links} let the span {span} sag by {100.0 * sag:.3g} % of its length"
+        return f"with {layout.links} links the span {span} sags by {100.0 * sag:.3g} % of its length"
     return ""
 
 
@@ -231,14 +231,14 @@ def _remedy(loop: ChainLoop, numbers: Sequence[int]) -> str:
     """Return how wheels come to stand where a whole number of links fits; of two, how far apart."""
     take_up = "give one wheel a take_up"
     if len(loop.wheels) > 2:
-        return f"{take_up}, or move one"
+        return f"{take_up}, or move a wheel"
     one, two = (wheel.teeth for wheel in loop.wheels)
     fitting = (
-        f"{loop.pitch * belt_centre(one, two, number):.3f} mm for {number}"
+        f"{loop.pitch * belt_centre(one, two, number):.3f} mm for {number} links"
         for number in numbers
         if number > max(one, two)
     )
-    return f"{take_up}, or set the wheels apart by {' or '.join(fitting)}"
+    return f"{take_up}, or set the centre distance to {' or '.join(fitting)}"
 
 
 def _even_near(links: float) -> list[int]:

@@ -85,7 +85,7 @@ def _by_rating(drive: PracticeDrive, pressure: float) -> float | str:
 
 def _by_din(drive: PracticeDrive, pressure: float) -> float | str:
     if not _SLOWEST <= drive.chain_speed <= _FASTEST:
-        return f"p_v is tabled from {_SLOWEST:g} to {_FASTEST:g} m/s"
+        return f"p_v is tabulated from {_SLOWEST:g} to {_FASTEST:g} m/s"
     rows = catalogue_rows("din_joint_pressure")
     speeds = [float(row["speed_m_per_s"]) for row in rows]
     allowed = np.interp(drive.chain_speed, speeds, [float(row["pressure_MPa"]) for row in rows])
@@ -95,10 +95,10 @@ def _by_din(drive: PracticeDrive, pressure: float) -> float | str:
 def _by_gost(exponent: float) -> Callable[[PracticeDrive, float], float | str]:
     def hours(drive: PracticeDrive, pressure: float) -> float | str:
         if drive.strands > _MOST_STRANDS_GOST:
-            return f"m_p is tabled to {_MOST_STRANDS_GOST} strands"
+            return f"m_p is tabulated for up to {_MOST_STRANDS_GOST} strands"
         allowed = allowable_joint_pressure(drive.pitch, drive.speed)
         if allowed is None:
-            return f"[p] is not tabled for {drive.pitch:g} mm at {drive.speed:g} rpm"
+            return f"[p] is not tabulated for {drive.pitch:g} mm at {drive.speed:g} rpm"
         return float(GOST_HOURS * (allowed / pressure) ** exponent)
 
     return hours
@@ -112,7 +112,7 @@ def _by_vorobyev(constant: float) -> Callable[[PracticeDrive, float], float | st
         try:
             centre = belt_centre(round(drive.teeth), round(drive.teeth * drive.ratio), drive.links)
         except GeometryError:
-            return "two wheels of this ratio need more links: no centre distance to reckon with"
+            return "two sprockets of this ratio need more links, so there is no centre distance"
         supply = 1.2 if speed <= 1.5 else 1.5 if speed <= 3.0 else 2.5
         lubrication = supply / math.sqrt(speed)
         drives = math.sqrt(drive.teeth) * math.cbrt(centre * drive.ratio / speed)
@@ -125,7 +125,7 @@ def _by_handbook(drive: PracticeDrive, pressure: float) -> float | str:
     rows = catalogue_rows("wear_pitch_factors")
     pitches = [float(row["pitch_mm"]) for row in rows]
     if not pitches[0] <= drive.pitch <= pitches[-1]:
-        return f"c2 is tabled for pitches from {pitches[0]:g} to {pitches[-1]:g} mm"
+        return f"c2 is tabulated for pitches from {pitches[0]:g} to {pitches[-1]:g} mm"
     factor = np.interp(drive.pitch, pitches, [float(row["factor"]) for row in rows])
     load = float(_HANDBOOK_CHARTS * factor / pressure) ** 3
     bends = drive.teeth * drive.ratio / (drive.ratio + 1.0)
@@ -261,7 +261,7 @@ def _opinion(rule: PracticeRule, duty: Sequence[PracticeDrive]) -> Opinion:
     hours = hours_over_duty(blocks) * judged.elongation / RATED_ELONGATION * judged.lubrication_factor.factor
     notes = [rating_note(judged.series)] if rule.school == "rating" else []
     if hours > NO_MORE_HOURS:
-        notes.append("above 100 000 h it is not wear that a chain ends by")
+        notes.append("above 100 000 h wear does not end the life of a chain")
     return Opinion(rule, hours, "; ".join(filter(None, notes)))
 
 

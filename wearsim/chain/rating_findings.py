@@ -17,7 +17,7 @@ from wearsim.chain.power_rating import (
 from wearsim.errors import CaseError, Fault
 
 LARGEST_PITCH = 76.2
-"""Of the chains that the ANSI rating knows, no. 240 [mm]."""
+"""Largest pitch that the ANSI rating covers, no. 240 [mm]."""
 
 
 @dataclass(frozen=True)
@@ -202,7 +202,7 @@ def rating_note(series: str) -> str:
     if series.startswith("ISO606-A"):
         return ""
     kinds = {
-        "ISO606-B": "a B chain has other plates and rollers: see its maker's chart",
+        "ISO606-B": "B chains have other plates and rollers: see the maker's chart",
         "ISO606-H": "thicker plates carry more than the A chain of this pitch",
         "GOST13568": "GOST practice rates these chains by joint pressure",
     }
@@ -334,10 +334,10 @@ def _compared(finding: RatingFinding) -> str:
     unit = f" {finding.unit}" if finding.unit else ""
     kind = "for information" if finding.informs else "indicative"
     source = f"{finding.source}; {kind} here" if finding.note else finding.source
-    of = f" of {finding.load}" if finding.load else ""
+    of = f" with {finding.load}" if finding.load else ""
     return (
-        f"{finding.name}{of} {finding.value:.4g}{unit}, allowed at {side} "
-        f"{finding.limit:.4g}{unit} ({source})"
+        f"{finding.name} {finding.value:.4g}{unit}{of}, allowed at {side} {finding.limit:.4g}{unit} "
+        f"({source})"
     )
 
 
@@ -347,10 +347,10 @@ def overload_fault(findings: Sequence[RatingFinding]) -> str:
     Examples
     --------
     >>> overload_fault([RatingFinding("plate fatigue", 30.0, 24.0, "kW", "ANSI B29.1, H1")])[:77]
-    'the load must keep to its ratings: plate fatigue 30 kW, allowed at most 24 kW'
+    'the load must stay within its ratings: plate fatigue 30 kW, allowed at most 24 kW'
     """
     outside = overloading(findings)
     if not outside:
         return ""
     found = "; ".join(f"{_compared(one)}: {100.0 * one.used:.4g} % of it" for one in outside)
-    return f"the load must keep to its ratings: {found}: take a larger chain, more strands or less power"
+    return f"the load must stay within its ratings: {found}: use a larger chain, more strands or less power"

@@ -136,7 +136,7 @@ def service_conditions(
         if words[key] not in known
     ]
     if not 0.0 < hours_per_day <= 24.0:
-        message = f"must be above 0 and at most 24 (got {hours_per_day:g}): give the hours of a day"
+        message = f"must be above 0 and at most 24 (got {hours_per_day:g}): give the running hours per day"
         faults.append(Fault(message, "hours_per_day"))
     if faults:
         raise CaseError(faults)

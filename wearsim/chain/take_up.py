@@ -40,7 +40,9 @@ class TakeUp:
             message = f"the direction must have a length, is {self.direction}: give two numbers, not both 0"
             raise CaseError([Fault(f"take-up of {self.wheel!r}: {message}")])
         if not -math.inf < self.least < self.most < math.inf:
-            message = f"the travel must grow, is {self.least:g} to {self.most:g} mm: give both ends in order"
+            message = (
+                f"the travel must increase, is {self.least:g} to {self.most:g} mm: give the smaller end first"
+            )
             raise CaseError([Fault(f"take-up of {self.wheel!r}: {message}")])
 
     @property
@@ -109,7 +111,8 @@ def fitting_travel(loop: ChainLoop, take_up: TakeUp, links: int, elongation: flo
         least, most = links + np.nanmin(found), links + np.nanmax(found)
         raise GeometryError(
             f"take-up of {take_up.wheel!r}: {links} links must fit within its travel of {take_up.least:g} to "
-            f"{take_up.most:g} mm, which takes {least:.6g} to {most:.6g} links: use others, or more travel"
+            f"{take_up.most:g} mm, which allows {least:.6g} to {most:.6g} links: use another number, or "
+            "more travel"
         )
     fits = [float(brentq(excess, places[i], places[i + 1], xtol=1e-10)) for i in brackets]
     return min(fits, key=abs)

@@ -63,7 +63,7 @@ class LimitKey:
 
 
 _ATOM = 1e-9
-"""Worn off: far below an atom is a slip of the pen."""
+"""Wear depth: a value far below the size of an atom is a typing error."""
 
 _LIST = (
     LimitKey(

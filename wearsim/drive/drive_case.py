@@ -174,7 +174,9 @@ class DriveCase(ReadTables):
 def with_one_wear(case: Case | DriveCase) -> Case | DriveCase:
     """Return a case whose [wear] is that of all its sprockets, as a study changes it; a fault on others."""
     faults = [
-        Fault("must be left out here, where [wear] is that of all: move it there", f"sprocket.{i}.wear")
+        Fault(
+            "must be left out here, as [wear] applies to all sprockets: move it there", f"sprocket.{i}.wear"
+        )
         for i, wheel in enumerate(getattr(case, "wheels", ()), start=1)
         if wheel.table.wear is not None
     ]

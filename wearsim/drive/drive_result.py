@@ -345,6 +345,6 @@ class DriveLife:
 
 def _chains_end_sooner(worn: Life | LowerBound, first: PartEnd) -> str:
     return (
-        f"sprocket lives assume chains that run until they are worn ({hours(worn)}); "
-        f"{first.mode} ends these at {hours(first.life)}, which the wear of the teeth does not allow for"
+        f"sprocket lives assume that every chain runs until it is worn ({hours(worn)}); {first.mode} ends "
+        f"its life at {hours(first.life)}, which the tooth wear does not account for"
     )

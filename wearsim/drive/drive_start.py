@@ -19,7 +19,7 @@ _UNITS = {"power": "kW", "rpm": "rpm", "centre": "mm"}
 """Units of the case."""
 
 _MOST_JOINT_FACTOR = 3.0
-_TOO_HARD = "\n# It is above 3, where handbooks ask for another drive."
+_TOO_HARD = "\n# It is above 3; handbooks advise another drive."
 _COLUMN = 32
 """Width of a line of the case before its comment."""
 
@@ -83,7 +83,7 @@ def _at_option(fault: Fault) -> Fault:
     if fault.key in _OPTIONS:
         return Fault(fault.message, "", _OPTIONS[fault.key])
     if fault.key.startswith("chain."):
-        return Fault(f"{fault.message}: take another chain", fault.key, "--chain")
+        return Fault(f"{fault.message}: choose another chain", fault.key, "--chain")
     return fault
 
 
@@ -139,9 +139,9 @@ def _length(values: Values, amounts: Mapping[str, str], case: "Case") -> str:
     assert isinstance(case.drive, WrapDrive)
     layout = case.drive.layout
     assert isinstance(layout, DriveLayout)
-    distance = f"{layout.centre_distance:.6g} mm between the axes"
+    distance = f"{layout.centre_distance:.6g} mm centre distance"
     if values["centre"] is not None:
-        even = f"{layout.links} links, the next even number, take {layout.centre_distance:.6g} mm"
+        even = f"{layout.links} links (even) give {layout.centre_distance:.6g} mm"
         return f"centre_distance_mm = {amounts['centre']}  # of the axes; {even}"
     if values["links"] is not None:
         return f"links = {layout.links}  # {distance}; or centre_distance_mm"

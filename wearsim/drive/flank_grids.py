@@ -61,14 +61,14 @@ class SettledLife:
         if not self.level:
             return ()
         return (
-            f"points of the flank: {self._taken}, chosen for the tolerance; on the {self.points} of "
-            f"the case the numerical error would be {self.first_error:.1g}",
+            f"points of the flank: {self._taken}, chosen for the tolerance; with the {self.points} of the "
+            f"case the numerical error would be {self.first_error:.1g}",
         )
 
     def warnings(self, tolerance: float) -> list[str]:
         """Return that the error exceeds a tolerance, if it does, and what to do."""
         if not self.is_compared:
-            return ["the error of the grid could not be estimated on other points, 100 % is stated"]
+            return ["the grid error could not be estimated, 100 % is stated"]
         if self.error <= tolerance:
             return []
         cure = "use more nodes (rows of a table)"

@@ -150,7 +150,7 @@ KNOWN = (
         asked=False,
     ),
     _one_of("--lubrication", "Lubrication", tuple(LUBRICATIONS)),
-    _one_of("--environment", "Surroundings of the chain", tuple(environments())),
+    _one_of("--environment", "Environment of the chain", tuple(environments())),
     _one_of("--tooth-hardness", "Teeth", HARDNESSES),
     _fixed("--hours-per-day", "Running hours per day", "HOURS", _quantity("h", 24.0), "8"),
     _one_of("--shock", "Shocks from the driven machine", tuple(SHOCKS)),

@@ -57,8 +57,8 @@ def dry_warning(case: Case, clock: LubricatedClock) -> list[str]:
     per_hour = case.cycles_per_hour
     lasts, every = lubricant.law.lasts / per_hour / given.dirt.ageing, lubricant.repeats / per_hour
     return [
-        f"the lubricant lasts {grouped(lasts)} h and is renewed every {grouped(every)} h: contacts wear "
-        f"{times:.3g} times as fast in the mean as while it lasts; relubricate sooner"
+        f"the lubricant lasts {grouped(lasts)} h and is renewed every {grouped(every)} h: contacts wear on "
+        f"average {times:.3g} times as fast as while it lasts; relubricate more often"
     ]
 
 
@@ -83,9 +83,9 @@ def lasting_warning(
     per_hour = case.cycles_per_hour * given.dirt.ageing
     lasts, less = (grouped(one.law.lasts / per_hour) for one in (clock.lubricant, found.worse))
     return [
-        f"the life of the {part} hangs on how long the lubricant lasts, {lasts} h: with {less} h, "
-        f"which its band holds, that life is {grouped(sooner / case.cycles_per_hour)} h and not "
-        f"{grouped(life.hours)} h; relubricate sooner"
+        f"the life of the {part} depends strongly on how long the lubricant lasts, {lasts} h: with {less} "
+        f"h, within its band, it is {grouped(sooner / case.cycles_per_hour)} h instead of "
+        f"{grouped(life.hours)} h; relubricate more often"
     ]
 
 

@@ -17,11 +17,11 @@ from wearsim.result.events import Event, drive_events
 CONVENTIONS = (
     "replacement parts last as long as the originals",
     "parts that are worn out at the same time share a stop; a stop costs the same whatever is replaced in it",
-    "mean of the long run: undiscounted; unused life of a part has no value",
+    "long-run average, undiscounted; unused life of a part has no value",
 )
 OF_A_CASSETTE = "a cassette is one part: it is replaced when its first cog is worn"
 
-WITHOUT_PRICES = "without prices the stops shown are those of the plan with the fewest stops, and then parts"
+WITHOUT_PRICES = "without prices the plan shown is the one with the fewest stops, then the fewest parts"
 
 CHAINS, YEARS = 3, 10.0
 """The stops that are shown end with this chain or after these years in service, whichever is sooner."""

@@ -34,10 +34,10 @@ def fatigue_parts(
 
 def _early(name: str, found: EnduredHours, life: Life | LowerBound, sprocket: Life | LowerBound) -> list[str]:
     if found.hours == 0.0:
-        return [f"contact fatigue: the stress on the new flank is more than the {name} endures for any time"]
+        return [f"contact fatigue: the stress on the new flank is too high for the {name} from the start"]
     if found.bound or found.hours >= sprocket.hours_run:
         return []
     after = f"after {found.hours:.3g} h"
     if found.hours < life.hours_run:
-        return [f"contact fatigue of the {name} comes before the wear, {after}: it governs"]
-    return [f"contact fatigue of the {name} comes before its own wear, {after}"]
+        return [f"contact fatigue of the {name} ends the life before wear, {after}: it governs"]
+    return [f"contact fatigue of the {name} ends its life before wear, {after}"]

@@ -124,7 +124,7 @@ def _first_run(
         check, change = task.run()
     except WearsimError as reason:
         warnings.append(
-            f"the error of the steps could not be estimated by advance, 100 % is stated: {reason}"
+            f"the step error could not be estimated by method 'advance', 100 % is stated: {reason}"
         )
     else:
         expected = task.clock.steady_cycles(float(check.cycles[-1]))

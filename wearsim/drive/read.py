@@ -30,12 +30,15 @@ from wearsim.mechanisms.wrap.drive import WrapLoad, wrap_drive
 from wearsim.mechanisms.wrap.place_in_loop import LOOP_KEY
 
 _OF_ONE_SPROCKET = {
-    "fatigue": "contact fatigue is for the case of one sprocket: remove this table",
+    "fatigue": "contact fatigue applies to cases of one sprocket only: remove this table",
     "drive.mate_teeth": "the other [[sprocket]] gives this: remove it",
-    "maintenance.turn_sprocket": "is for the case of one sprocket: a drive is planned without turning: "
-    "remove it",
-    "maintenance.replace_at_percent": "is for the case of one sprocket: the chain of a drive goes at "
-    "stop.elongation_percent: remove it",
+    "maintenance.turn_sprocket": (
+        "applies to cases of one sprocket only, a drive is planned without turning: remove it"
+    ),
+    "maintenance.replace_at_percent": (
+        "applies to cases of one sprocket only, the chain of a drive is replaced at "
+        "stop.elongation_percent: remove it"
+    ),
 }
 """Tables and keys that a drive has no use for."""
 
@@ -172,9 +175,11 @@ def _sharing_time(sprockets: list[DriveSprocket], cassette: DriveWheel, place: i
             drive=replace(drive, mates=mates, time_share=time_share, blocks=loads[0], rated=loads[1]),
             assumptions=(
                 *one.case.assumptions,
-                "the chain turns on the cogs by their shares of time; wrap as on the one used most"
+                "the chain runs on each cog for its share of the time; wrap angles are those of the most "
+                "used cog"
                 if cog is None
-                else f"the chain runs on this cog {100.0 * time_share:.4g} % of the time and grows on all",
+                else f"the chain runs on this cog {100.0 * time_share:.4g} % of the time and elongates on "
+                "all cogs",
             ),
         )
         found.append(replace(one, case=case))

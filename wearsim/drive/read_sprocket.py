@@ -87,12 +87,12 @@ def complete_case(tables: CaseTables, document: Document, build: Builder) -> Cas
     wear = wear_input(case, tables.wear)
     kind = mechanism_kind(case)
     if kind != "wrap" and tables.wear.condition and tables.wear.specific_wear_rate_mm2_per_N:
-        text = "gives the specific wear rate: remove it or specific_wear_rate_mm2_per_N (a wrap takes both)"
+        text = "gives the specific wear rate: remove it or specific_wear_rate_mm2_per_N (a wrap allows both)"
         faults.add("wear.condition", text)
     duty = complete_duty(case, kind, chain)
     prices = tables.maintenance
     if prices is not None and prices.chain_price is not None and prices.sprocket_price is None:
-        faults.add("maintenance.chain_price", "the cost needs sprocket_price too: give both or none")
+        faults.add("maintenance.chain_price", "the cost needs sprocket_price too: give both or neither")
     drive = build(case, wear, chain, duty)
     critical_depth = _critical_depth(case, drive)
     more_limits = _more_limits(case, drive)
@@ -150,7 +150,7 @@ def _turns_per_cycle(case: ChainRecord) -> int:
     if common > 1:
         case.warnings.append(
             f"with {table.teeth} gaps and engaged_every = {table.engaged_every} the rollers meet the "
-            f"same {table.teeth // common} gaps: those wear {common} times as fast as if all took part"
+            f"same {table.teeth // common} gaps: those wear {common} times as fast as if all gaps were used"
         )
     return table.engaged_every // common
 
@@ -176,7 +176,7 @@ def _chain(case: ChainRecord, table: ChainTable) -> Chain:
             return chains()[name]
         name = several
         case.inputs["chain"]["designation"] = name
-        case.assumptions.append(f"{strands} strands are chain {name}; they share the pull evenly")
+        case.assumptions.append(f"{strands} strands: chain {name}; they share the pull evenly")
     elif name != table.designation:
         case.inputs["chain"]["designation"] = name
         case.assumptions.append(f"chain {table.designation!r} is read as {name} of the catalogue")
@@ -190,10 +190,10 @@ def _chain(case: ChainRecord, table: ChainTable) -> Chain:
     if table.mass_kg_per_m and chains()[name].mass_per_length:
         known = chains()[name].mass_per_length / KG_PER_M
         case.assumptions.append(
-            f"chain.mass_kg_per_m {table.mass_kg_per_m:g} in place of the catalogue's {known:.4g}"
+            f"chain.mass_kg_per_m {table.mass_kg_per_m:g} instead of the catalogue's {known:.4g}"
         )
     if chain.note:
-        case.assumptions.append(f"note of the catalogue on chain {chain.designation}: {chain.note}")
+        case.assumptions.append(f"catalogue note on chain {chain.designation}: {chain.note}")
     return chain
 
 
@@ -225,7 +225,7 @@ def _check_depth(case: ChainRecord, drive: Drive | None, depth: float) -> None:
     if depth >= thinnest > 0.0:
         case.faults.add(
             "stop.critical_depth_mm",
-            f"must be below the thickness of the tooth at its neck, {thinnest:.4g} mm (got {depth:g})",
+            f"must be below the thickness of the tooth at its thinnest, {thinnest:.4g} mm (got {depth:g})",
         )
     elif depth > _DEEP * thickness > 0.0:
         case.warnings.append(

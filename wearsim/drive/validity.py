@@ -92,8 +92,9 @@ def _bridged(contact: FlankContact, hours: Vector, relative: Vector, load: Vecto
         )
     if ridge.any():
         found.append(
-            f"from about {hours[int(ridge.argmax())]:.3g} h on ridges stand where little slides or the "
-            "load steps: the Hertz pressure on them, which is the peak pressure, has no limit on a finer grid"
+            f"from about {hours[int(ridge.argmax())]:.3g} h on ridges remain where sliding is small or the "
+            "load steps: the Hertz pressure on them, which is the peak pressure, grows without limit on "
+            "finer grids"
         )
     return found
 

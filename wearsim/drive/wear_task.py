@@ -85,10 +85,10 @@ def _own_law(case: Case, law: WearLaw, contact: FlankContact) -> tuple[WearLaw, 
 
     depth = DepthFunction(own_wear_laws()[case.wear.law], dict(case.wear.constants), case.name)
     if case.run.method != "advance":
-        text = f"must be 'advance' with a wear law of the program (got {case.run.method!r})"
+        text = f"must be 'advance' with a user-defined wear law (got {case.run.method!r})"
         raise CaseError([Fault(text, "run.method", case.name)])
     if "gear" in case.inputs and depth.depends_on_slip(contact.new_engagement(), contact.modulus):
-        raise depth.fault("must not depend on the slip on gears, which is another on either flank")
+        raise depth.fault("must not depend on the slip on gears, as the slip of the two flanks differs")
     made, worn_by = own_law(depth, contact, law.coefficient)
     same = {name: getattr(law, name) for name in ("case_depth", "core_factor", "severity")}
     return replace(made, **same), worn_by
@@ -119,7 +119,7 @@ def _check_t_gamma(case: Case, contact: FlankContact) -> None:
         message = (
             f"T-gamma over the contact area must lie below {FIRST:g} or above {SECOND:g} N/mm2 all along "
             f"the new flank, but is {energy.min():.3g} to {energy.max():.3g}: in between the rate does not "
-            "rise with the pressure, a pit deepens itself and the problem is ill-posed; take another law or "
+            "rise with the pressure, a pit deepens itself and the problem is ill-posed; use another law or "
             "load"
         )
         raise CaseError([Fault(message, "wear.law", case.name)])

@@ -137,7 +137,7 @@ def _check_together(wheels: Sequence[DriveWheel], faults: Faults) -> None:
         first = wheels[takers[0] - 1].name
         faults.add(
             f"sprocket.{takers[1]}.take_up",
-            f"one sprocket takes up the slack, {first!r} does already: remove one of both",
+            f"one sprocket takes up the slack, {first!r} does already: remove one of the two",
         )
     cassettes = [number for number, wheel in enumerate(wheels, start=1) if wheel.cogs]
     if len(cassettes) > 1:
@@ -153,9 +153,9 @@ def _check_names(wheels: Sequence[DriveWheel], faults: Faults) -> None:
     for number, wheel in enumerate(wheels, start=1):
         key = f"sprocket.{number}.name"
         if wheel.name != wheel.name.strip() or not wheel.name.isprintable():
-            faults.add(key, f"must be one line without blanks at its ends (got {wheel.name!r})")
+            faults.add(key, f"must be one line without leading or trailing blanks (got {wheel.name!r})")
         if wheel.name.lower() == "chain":
-            faults.add(key, "must be another one: the chain is a part of its own")
+            faults.add(key, "must be another name: the chain is a part too")
         names = {wheel.name, *wheel.parts}
         if twice := sorted(names & taken):
             faults.add(key, f"sprockets need different names (got {twice[0]!r} twice)")
@@ -180,7 +180,7 @@ def _shares_of(
     torques = [(number, wheel) for number, wheel in wheels if wheel.table.torque_N_m is not None]
     if torques and role == DRIVER:
         faults.add(
-            f"sprocket.{torques[0][0]}.torque_N_m", "[load] gives that of the driver: remove one of both"
+            f"sprocket.{torques[0][0]}.torque_N_m", "[load] gives that of the driver: remove one of the two"
         )
         return {}
     if torques:
@@ -212,7 +212,7 @@ def _shares_by_torque(
     work = {}
     for number, wheel in wheels:
         if wheel.table.torque_N_m is None:
-            faults.add(f"sprocket.{number}.torque_N_m", "required: others give theirs")
+            faults.add(f"sprocket.{number}.torque_N_m", "required, as other sprockets give theirs")
             continue
         work[wheel.name] = 2.0 * math.pi * wheel.table.torque_N_m * wheel.turning
     total = math.fsum(work.values())
@@ -220,7 +220,7 @@ def _shares_by_torque(
     if turn and abs(total / turn - 1.0) > _POWER_TOLERANCE:
         faults.add(
             f"sprocket.{wheels[-1][0]}.torque_N_m",
-            f"the power must balance: torques of the driven sprockets take {100.0 * total / turn:.4g} % "
+            f"the power must balance: torques of the driven sprockets sum to {100.0 * total / turn:.4g} % "
             "of what [load] gives: correct one of them",
         )
     return {name: one / total for name, one in work.items()} if total else {}
@@ -257,7 +257,7 @@ def check_prices(tables: DriveTables, faults: Faults) -> None:
         return
     for number, table in enumerate(tables.sprocket, start=1):
         if table.price is not None:
-            text = "the cost needs maintenance.chain_price too: give both or none"
+            text = "the cost needs maintenance.chain_price too: give both or neither"
             faults.add(f"sprocket.{number}.price", text)
 
 

@@ -219,7 +219,7 @@ def _gave_up(run: RestingTrajectory, horizon: float) -> list[str]:
     if run.lost:
         return [f"the run ends before the sprocket's limit, so its life is longer than stated: {run.lost}"]
     return [
-        f"the run ends after {run.updates} steps and {run.mates[-1]:.0f} chains, the most that it takes: "
+        f"the run stopped after {run.updates} steps and {run.mates[-1]:.0f} chains, the most allowed: "
         "the sprocket outlasts them, its own limit was not reached"
     ]
 
@@ -277,7 +277,8 @@ def _clock_assumptions(case: Case, law: WearLaw) -> tuple[str, ...]:
     hours = joints.shortest / case.cycles_per_hour
     return (
         *found,
-        "joints of every new chain run in by their own way on all sprockets, the excess falls to 1/e in "
+        "joints of every new chain run in over their own sliding distance on all sprockets, the extra wear "
+        "falls to 1/e in "
         f"{hours:.4g} h",
     )
 

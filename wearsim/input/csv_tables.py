@@ -79,7 +79,7 @@ def header_faults(names: Sequence[str], required: Sequence[str], optional: Seque
         elif name not in known:
             found.append(f"column {number} must be one of {', '.join(known)}: its head is no name")
     if len(set(names)) != len(names):
-        found.append("every column may stand there once only")
+        found.append("each column may appear only once")
     return found
 
 
@@ -121,7 +121,9 @@ def read_flank_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vec
         return None
     radius = np.hypot(*found)
     if radius[0] > radius[-1]:
-        faults.add(key, f"{path.name}: points must run from root to tip, but the radius falls: reverse them")
+        faults.add(
+            key, f"{path.name}: points must run from root to tip, but the radius decreases: reverse them"
+        )
         return None
     return found
 

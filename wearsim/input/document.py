@@ -194,7 +194,7 @@ def _check_depth(data: dict[str, Any], file: str, text: str = "") -> None:
         return
     lines = [line.partition("#")[0] for line in text.splitlines()]
     deep = (number for number, line in enumerate(lines, 1) if _opened(line) >= _DEEPEST)
-    message = f"at most {_DEEPEST} tables or lists may lie within one another, not {depth}: remove some"
+    message = f"tables and lists may be nested at most {_DEEPEST} deep, are {depth} deep: remove some"
     raise CaseError([Fault(message, "", file, next(deep, 0))])
 
 

@@ -209,7 +209,7 @@ def _column(
         faults.add(key, f"{path.name}:1: column {first!r} is missing{instead}")
     if len(found) > 1:
         faults.add(
-            key, f"{path.name}:1: one column must give this (got {' and '.join(found)}): keep one of them"
+            key, f"{path.name}:1: only one column may give this (got {' and '.join(found)}): keep one of them"
         )
     return found[0] if found else first
 

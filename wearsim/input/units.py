@@ -66,7 +66,7 @@ def _converted(number: float, given: str, unit: str) -> float:
         units = _registry().parse_units(_POWER.sub(r"\1^\2", given))
         converted = float(_registry().Quantity(number, units).to(unit).magnitude)
     except pint.DimensionalityError:
-        raise ValueError(f"the unit must be one of the kind of {unit}") from None
+        raise ValueError(f"the unit must be convertible to {unit}") from None
     except Exception:
         raise ValueError(
             f"unknown unit {given!r}: must be a number, or a string such as '1 {unit}'"

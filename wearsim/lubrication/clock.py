@@ -142,7 +142,7 @@ class LubricantClock:
         if len(self._stretches) == _MOST:
             raise ConvergenceError(
                 f"lubrication: the schedule must repeat itself, but does not within {_MOST} stretches "
-                "between events: take fewer events, or relubrications that are more complete"
+                "between events: use fewer events, or more complete relubrications"
             )
         self._stretches.append(state._replace(events=tuple(self._happened)))
         self._happened.clear()

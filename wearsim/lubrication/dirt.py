@@ -56,7 +56,10 @@ def read_dirt(
     band = whole.contamination_band_factor
     if band is None and factor != row.factor:
         band = _USUAL_BAND
-        text = f"{place}.contamination_factor is the user's, known to a factor of {band:g} to either side"
+        text = (
+            f"{place}.contamination_factor is given by the user, assumed as known to a factor of {band:g} "
+            "either way"
+        )
         case.assumptions.append(text)
     if band is not None:
         low, high = max(factor / band, 1.0), factor * band
@@ -73,8 +76,8 @@ def _abrasion(
     share = abrasion_share(hardness, surface)
     scratches = "scratches" if share else "does not scratch"
     case.assumptions.append(
-        f"{place}: dirt of {hardness:g} HV {scratches} surfaces of {surface:g} HV, as it must be 1.2 "
-        "times as hard (Hutchings); teeth, pins and bushes have one hardness"
+        f"{place}: dirt of {hardness:g} HV {scratches} surfaces of {surface:g} HV (it must be 1.2 times as "
+        "hard, Hutchings); teeth, pins and bushes are assumed equally hard"
     )
     return share
 

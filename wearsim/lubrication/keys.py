@@ -33,7 +33,7 @@ APPLICATION = ("price_per_application", "minutes_per_application", "labour_cost_
 """Keys of what a relubrication costs."""
 
 SUPPLY = ("consumption_ml_per_hour", "price_per_litre")
-"""Keys of what a lubricant costs that is supplied all the time."""
+"""Keys of what a lubricant costs that is supplied continuously."""
 
 RATES = ("condition", "law", "specific_wear_rate_mm2_per_N", "coefficient")
 """Keys of [wear] that say how fast it wears."""
@@ -104,7 +104,7 @@ class _Surroundings(Table):
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         if self.environment == "clean" and self.contamination_factor not in (None, 1.0):
-            text = "a clean environment has none: name another environment, or remove one of both"
+            text = "a clean environment has none: name another environment, or remove one of the two"
             return [("contamination_factor", text)]
         return []
 
@@ -130,7 +130,7 @@ class LubricationPhase(_Surroundings):
             found.append(("hours", f"give exactly one of hours and km (got {got})"))
         dirt = self.contamination_factor or 1.0
         if self.contaminations and self.environment in (None, "clean") and dirt == 1.0:
-            text = "dirt must multiply the wear: give environment or contamination_factor too"
+            text = "needs an effect of dirt on the wear: give environment or contamination_factor too"
             found.append(("contaminations", text))
         return found
 
@@ -172,7 +172,7 @@ class _Lubricant(Table):
             given = [key for key in keys if getattr(self, key, None) not in (None, [])]
             goes_on = len(given) == 2 and given[0] in INTERVAL and given[1] in AT
             if len(given) > 1 and not goes_on:
-                found.append((given[1], f"{given[0]} says this already: remove one of both"))
+                found.append((given[1], f"{given[0]} already gives this: remove one of the two"))
         return found
 
 

@@ -87,7 +87,7 @@ class LubricationInput:
         if math.isinf(lasts):
             then = ""
         elif lasts >= hours:
-            then = "; the lubricant lasts so long"
+            then = "; the lubricant lasts until then"
         elif dries >= hours:
             then = f"; the lubricant fades from {grouped(lasts)} h on"
         word = "comes after" if self.at_hours else "is longer than"

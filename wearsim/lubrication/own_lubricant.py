@@ -85,7 +85,9 @@ def lubricant(
         faults.add_validation(error, LubricationTable)
         table = LubricationTable()
     if lasts_sliding_m is not None and dry_factor is None:
-        faults.add("dry_factor", "must be given of a lubricant that lasts so long: dry over lubricated wear")
+        faults.add(
+            "dry_factor", "must be given for a lubricant with a limited life: dry wear over lubricated wear"
+        )
     faults.check()
     lubricants()[name] = Lubricant(
         name,
@@ -104,7 +106,7 @@ def lubricant(
 def _check_words(faults: Faults, name: str, wear_condition: str, supply: str, source: str) -> None:
     """Add what is wrong with the words of a row."""
     if not name.strip() or (name in lubricants() and not lubricants()[name].is_own):
-        faults.add("name", f"must be a name that the catalogue does not have (got {name!r})")
+        faults.add("name", f"must not be a name of the catalogue (got {name!r})")
     if wear_condition not in wear_conditions():
         hint = nearest(wear_condition, dict(wear_conditions()))
         text = f"no such wear condition{hint} (wearsim list wear-conditions) (got {wear_condition!r})"

@@ -54,32 +54,35 @@ def lubrication_input(
         _say_coefficients(case, row, condition, hardness or HARDNESSES[0])
         if row.supply == "none" and table.environment == "soil":
             case.warnings.append(
-                "lubrication.environment = 'soil' multiplies the wear of oiled contacts, and beside dry ones "
+                "lubrication.environment = 'soil' multiplies the wear of oiled contacts, and with dry ones "
                 "counts the missing oil twice: give wear.condition = 'soil-contaminated' alone"
             )
         if row.is_own:
-            case.assumptions.append(f"lubricant {row.lubricant!r} is the user's: {row.source}")
+            case.assumptions.append(f"lubricant {row.lubricant!r} is user-defined: {row.source}")
     return reader.input()
 
 
 def _say_coefficients(case: CaseRecord, row: Lubricant, condition: str | None, hardness: str) -> None:
     """Say whose coefficients hold where they are not those of the lubricant."""
     if condition is None:
-        case.assumptions.append(f"the wear rates are the user's, not those of lubricant {row.lubricant!r}")
+        case.assumptions.append(
+            f"the wear rates are given by the user and replace those of lubricant {row.lubricant!r}"
+        )
         return
     if condition == condition_of_teeth(row, hardness):
         return
     is_oiled, as_named = (wear_conditions()[name].lubricated for name in (condition, row.wear_condition))
     if is_oiled == as_named:
         case.warnings.append(
-            f"wear.condition = {condition!r} is not that of lubrication.lubricant = {row.lubricant!r}, "
-            f"{row.wear_condition!r}: its wear rates hold; remove it to take those of the lubricant"
+            f"wear.condition = {condition!r} overrides {row.wear_condition!r}, the condition of "
+            f"lubrication.lubricant = {row.lubricant!r}; remove it to use the wear rates of the lubricant"
         )
         return
     words = ("dry or contaminated", "lubricated")
     case.warnings.append(
         f"wear.condition = {condition!r} contradicts lubrication.lubricant = {row.lubricant!r}: those "
-        f"contacts are {words[is_oiled]}, with this lubricant they are {words[as_named]}: remove one of both"
+        f"contacts are {words[is_oiled]}, with this lubricant they are {words[as_named]}: remove one of the "
+        "two"
     )
 
 
@@ -143,7 +146,7 @@ class _Reader:
         )
         for key, (there, what) in zip(_BANDS, given, strict=True):
             if getattr(self.table, key) is not None and not there:
-                self._fault(key, f"belongs to {what}, which this case has not: remove it")
+                self._fault(key, f"needs {what}, which this case does not have: remove it")
 
     def _check_supply(self) -> None:
         """Name a schedule that the lubricant has no use for."""
@@ -159,7 +162,7 @@ class _Reader:
         elif row.supply == "continuous" and key != "phase":
             self._fault(
                 key,
-                f"lubricant = {row.lubricant!r} is supplied all the time: remove this, or name another one",
+                f"lubricant = {row.lubricant!r} is supplied continuously: remove this, or name another one",
             )
 
     def _ages(self) -> bool:
@@ -167,9 +170,7 @@ class _Reader:
         row, given = self.row, self._given(LASTS)
         if given is not None:
             if row is not None and row.supply == "none":
-                self._fault(
-                    given, "dry contacts have no lubricant that lasts: remove this, or name a lubricant"
-                )
+                self._fault(given, "dry contacts have no lubricant: remove this, or name one")
             return True
         if row is not None and row.lasts is not None:
             return True
@@ -233,7 +234,7 @@ class _Reader:
         row = self.row
         ends = None if row is None else row.dry_ends
         typical = dry_factor if row is not None and dry_factor == row.dry_factor else None
-        return self._ends("dry_band_factor", typical, ends, _DRY_BAND, "the dry factor is the user's")
+        return self._ends("dry_band_factor", typical, ends, _DRY_BAND, "the dry factor is given by the user")
 
     def _ends(
         self, key: str, typical: float | None, ends: tuple[float, float] | None, usual: float, why: str
@@ -284,8 +285,8 @@ class _Reader:
         if given <= 1.0 + excess:
             self._fault(
                 "when_rate_exceeds",
-                f"must be above {1.0 + excess:g}, which dirt alone gives (got {given:g}): fresh lubricant "
-                "does not help",
+                f"must be above {1.0 + excess:g}, the factor of dirt alone (got {given:g}): fresh lubricant "
+                "cannot go below it",
             )
         elif given > dry_factor * (1.0 + excess):
             self.case.warnings.append(
@@ -322,9 +323,7 @@ class _Reader:
         if self.row is not None and self.row.supply == "continuous":
             for key in ("price_per_application", "minutes_per_application"):
                 if getattr(table, key) is not None:
-                    self._fault(
-                        key, "must not be given of a lubricant that is supplied all the time: remove it"
-                    )
+                    self._fault(key, "does not apply to a lubricant that is supplied continuously: remove it")
         if minutes is None and price is None:
             return None
         return (minutes or 0.0) / 60.0 * (hourly or 0.0) + (price or 0.0)
@@ -336,7 +335,7 @@ class _Reader:
             return None
         for key in given:
             if self.row is None or self.row.supply != "continuous":
-                text = "needs a lubricant that is supplied all the time: give price_per_application instead"
+                text = "needs a lubricant that is supplied continuously: give price_per_application instead"
                 self._fault(key, text)
             elif len(given) < len(SUPPLY):
                 (other,) = set(SUPPLY) - set(given)
@@ -363,15 +362,15 @@ def _assumptions(found: LubricationInput) -> Iterator[str]:
     """What the state of the lubricant takes for granted."""
     if found.lasts is not ENDLESS or found.dirt.excess or found.phases:
         yield (
-            "lubrication: the state of the lubricant multiplies the wear of all contacts alike; the joints "
-            "of a new chain come lubricated and clean, and are relubricated when the drive is; a new chain "
-            "does not lubricate the teeth"
+            "lubrication: the state of the lubricant multiplies the wear of all contacts equally; a new "
+            "chain has lubricated, clean joints, which are relubricated with the drive; it does not "
+            "lubricate the teeth"
         )
     if found.phases:
         yield (
-            "lubrication.phase: relubrications are spread evenly over a phase, the first at its begin, "
-            "contaminations in the middle of equal parts; where both come at one time contacts are "
-            "relubricated first, and stay dirty; after the last phase the first follows"
+            "lubrication.phase: relubrications are spread evenly over a phase, the first at its start, "
+            "contaminations in the middle of equal parts; if both coincide, contacts are relubricated "
+            "first and stay dirty; after the last phase the first one follows again"
         )
     if found.at_hours and found.interval is None:
-        yield f"lubrication: after {found.at_hours[-1]:g} h contacts are not relubricated any more"
+        yield f"lubrication: after {found.at_hours[-1]:g} h contacts are no longer relubricated"

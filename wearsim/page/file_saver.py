@@ -93,7 +93,7 @@ class FileSaver:
         if self.file.is_blank or self._text() == self.file.begun:
             return True
         lose = "Discard the changes on this page"
-        question = f"{self.file.path} is not saved as it stands here."
+        question = f"{self.file.path} has unsaved changes."
         return await choose(question, (lose, "Cancel")) == lose
 
     async def export(self) -> None:

@@ -186,7 +186,7 @@ def _bad_sprockets(
     """Give what is wrong in rows that say when a sprocket was new."""
     for line, cells in rows:
         if cells["quantity"] != NEW:
-            text = f"must be {NEW} where a sprocket is named, as readings are of the chain"
+            text = f"must be {NEW} where a sprocket is named, as readings are those of the chain"
             yield Fault(text, "quantity", table.file, line)
         if not math.isfinite(time.hours(cells[table.time])):
             yield Fault(f"must be {time.must} (got {cells[table.time]!r})", table.time, table.file, line)
@@ -199,7 +199,7 @@ def _backwards(table: DatedRows, time: ServiceTime) -> Iterator[Fault]:
         text = cells[table.time]
         hours = time.hours(text)
         if hours < last:
-            message = f"must not go backwards: {text} comes after {above}; sort the rows, one chain a file"
+            message = f"must not go backwards: {text} comes after {above}; sort the rows, one chain per file"
             yield Fault(message, table.time, table.file, line)
         last, above = (hours, text) if hours >= last else (last, above)
 

@@ -242,17 +242,17 @@ def _check_within(log: ChainLog, limit: float, excluding: Sequence[Contradiction
 def _assumptions(log: ChainLog, band: WearBand) -> Iterator[str]:
     if log.times_relubricated:
         yield (
-            f"the load stays as it was, and the chain on the drive is relubricated every "
-            f"{log.relubrications.mean_interval:.4g} h as before, in place of what [lubrication] says"
+            "the load does not change, and the chain on the drive is relubricated every "
+            f"{log.relubrications.mean_interval:.4g} h as before, instead of by [lubrication]"
         )
     else:
-        yield "load and lubrication stay as they were"
+        yield "load and lubrication do not change"
     yield (
-        f"before any reading it is {band.low:.3g} to {band.high:.3g} times the case's (90 % of a "
-        "log-normal distribution, the band of the case)"
+        f"before any reading the coefficient is {band.low:.3g} to {band.high:.3g} times the case's (90 % of "
+        "a log-normal distribution, the band of the case)"
     )
     yield "errors of the readings are normal, independent and as stated; intervals include no model error"
-    yield "of a gauge only the side of its mark is known, within its error"
+    yield "a gauge reading only gives the side of its mark, within its error"
     yield from _of_lengths(log)
 
 
@@ -260,13 +260,13 @@ def _of_lengths(log: ChainLog) -> Iterator[str]:
     """Say what lengths count from, and what an odd number of links may hide."""
     if log.new.measured:
         yield (
-            f"lengths count from that of the new chain, {log.new.longer:+.2g} % over its pitch, whose error "
-            "counts"
+            f"elongations count from the measured length of the new chain, {log.new.longer:+.2g} % from "
+            "nominal, with the error of that reading"
         )
     if log.odd_links:
         yield (
-            "an odd number of links holds one outer link more or fewer than inner ones, and only outer links "
-            "grow by wear: such readings have a part of 1/links more error"
+            "an odd number of links has one outer link more or fewer than inner links, and only outer "
+            "links elongate by wear: such readings have an additional relative error of 1/links"
         )
     if log.time.zero:
         yield "times count from the row 'new', where the hour meter or odometer did not show 0"
@@ -278,8 +278,8 @@ def _warnings(
     yield from band_warning(posterior.nearest, band, JOINTS)
     if posterior.scale > 1.0:
         yield (
-            f"the readings are {posterior.scale:.2g} times as far from one line as their errors say: check "
-            "them, the load and the lubrication; their errors are taken as so much larger"
+            f"the readings scatter about one line {posterior.scale:.2g} times as much as their errors say: "
+            "check them, the load and the lubrication; their errors are enlarged by this factor"
         )
     yield from log.time.warnings(log.readings[0].hours)
     yield from log.relubrications.warnings()

@@ -156,6 +156,6 @@ def ambiguous_reading(over_pins: Vector, error: float) -> str:
     if again <= error:
         return ""
     return (
-        f"must belong to one time, but the measurement over pins grows again by {again:.3g} mm in the "
-        "life: measure the depth"
+        f"must belong to one time only, but the measurement over pins increases again by {again:.3g} mm "
+        "during the life: measure the depth"
     )

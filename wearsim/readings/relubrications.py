@@ -71,9 +71,9 @@ class RelubricationLog:
                 grouped(hours) for hours in (self.today - self.last, self.logged_interval, self.mean_interval)
             )
             yield (
-                f"the last relubrication was {since} h ago, but they came every {before} h before: the "
-                f"next is taken to come now, and then one every {then} h; less is left where nobody "
-                "relubricates. Log those that are missing"
+                f"the last relubrication was {since} h ago, but they came every {before} h before: the next "
+                f"is assumed now, then one every {then} h; without relubrication less life is left. Log any "
+                "that are missing"
             )
 
 
@@ -180,7 +180,7 @@ def _check_interval(case: Case, log: RelubricationLog) -> None:
     effect = (law.lasts + law.fades) / (case.cycles_per_hour * given.dirt.ageing)
     if log.logged_interval < _LEAST * effect < math.inf:
         text = (
-            f"{RELUBRICATION} must come every {_LEAST * effect:.3g} h or later in the mean, a thousandth of "
+            f"{RELUBRICATION} must come every {_LEAST * effect:.3g} h or later on average, a thousandth of "
             f"the {grouped(effect)} h after which the lubricant is gone, but comes every "
             f"{log.logged_interval:.3g} h: remove this row if the part was new, as that is lubricated, or "
             "correct its time"
@@ -198,4 +198,4 @@ def relubrication_rows(log: RelubricationLog, times: int) -> list[tuple[str, str
         return []
     count = "once" if times == 1 else f"{times} times"
     every = grouped(log.mean_interval)
-    return [("Lubricated", f"{count}, every {every} h in the mean, and so on from here")]
+    return [("Lubricated", f"{count}, every {every} h on average, and so on from here")]

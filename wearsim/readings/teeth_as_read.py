@@ -7,8 +7,8 @@ Teeth = Literal["case", "chain"]
 """The coefficient of the case, or that times the factor of the chain."""
 
 TEETH_WORDS: dict[Teeth, str] = {
-    "case": "teeth wear as the case says, and joints as was read: --teeth case",
-    "chain": "teeth wear as much faster or slower than the case says as the joints do: --teeth chain",
+    "case": "teeth wear as in the case, joints as measured: --teeth case",
+    "chain": "teeth wear faster or slower than in the case by the same factor as the joints: --teeth chain",
 }
 
 _FAR = 2.0

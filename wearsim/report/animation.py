@@ -32,8 +32,8 @@ def animation(result: WearResult, form: str, frames: int, seconds: float, width:
     life = f"life {hours(result.life)}, {ending(result)}"
     factors = " and ".join(str(flank.factor) for flank in worn_flanks(result))
     text = (
-        f"{title}: the flank as it wears within {grouped(result.hours_run)} h, wear depth enlarged {factors} "
-        f"times as large; {life}"
+        f"{title}: wear of the flank over {grouped(result.hours_run)} h, wear depth enlarged {factors} "
+        f"times; {life}"
     )
     heading = f"{textwrap.fill(title, 80)}\n{life}"
     return encoded(images(result, heading, frames, width), form, seconds, text)

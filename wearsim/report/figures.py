@@ -187,7 +187,7 @@ def along_flank_figure(results: list[WearResult]) -> Figure:
         panel.set_ylim(bottom=0.0)
     panels[0].legend(frameon=False, fontsize=8)
     if any("wheel_depth_mm" in result.flank_columns for result in results):
-        text = "solid: pinion, dotted: wheel where it meets that place"
+        text = "solid: pinion, dotted: wheel at the place that meets it"
         panels[0].set_title(text, fontsize=9, loc="left")
     if len(shown) > 1:
         panels[1].set_title("solid: at the end of the life, dashed: new", fontsize=9, loc="left")

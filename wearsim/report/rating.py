@@ -33,7 +33,7 @@ def ratings_table(ratings: Sequence[RatingFinding]) -> AnswerTable[RatingFinding
             Column("ok", lambda one: one.ok),
             Column("", lambda one: _in_unit(one, one.margin), "margin"),
             Column("", lambda one: f"{grouped(100.0 * one.used)} %", "used"),
-            Column("", rule, "whose rule"),
+            Column("", rule, "source"),
             Column("source", lambda one: one.source),
             Column("note", lambda one: one.note),
             Column("load", lambda one: one.load),
@@ -83,10 +83,10 @@ def verdict(finding: RatingFinding, judges: bool) -> str:
     --------
     >>> pressure = RatingFinding("joint pressure", 27.0, 22.5, "MPa", "GOST practice")
     >>> verdict(pressure, judges=True), verdict(pressure, judges=False)
-    ('outside', 'outside (informs)')
+    ('outside', 'outside (for information)')
     """
     found = "ok" if finding.ok else "outside"
-    return found if judges else f"{found} (informs)"
+    return found if judges else f"{found} (for information)"
 
 
 def rating_text(case: Case) -> str:
@@ -102,10 +102,10 @@ def rating_text(case: Case) -> str:
         Column("", lambda one: one.limit, "limit", grouped, ">7"),
         Column("", lambda one: f"  {one.unit:<5} ", "  unit", side="<8"),
         Column("", lambda one: _state(one, one in judging), "state", side="<9"),
-        Column("", lambda one: _whose(one, _mark(one, notes)), "whose rule", side="<"),
+        Column("", lambda one: _whose(one, _mark(one, notes)), "source", side="<"),
     ]
     lines = AnswerTable(columns, found).lines("  rating   ")
-    rules = " " * lines[0].index("whose rule")
+    rules = " " * lines[0].index("source")
     told = [_folded(note, f"           [{number}] ", " " * 15) for number, note in enumerate(notes, start=1)]
     return "\n".join([*(_folded(line, "", rules) for line in lines), *told])
 

@@ -85,10 +85,10 @@ def _amount(value: Any, unit: str) -> str:
 def _shocks(inputs: Mapping[str, Any], wrap: WrapDrive) -> str:
     factor = wrap.service_factor
     if (inputs.get("drive") or {}).get("service_factor") is None:
-        return f"{NOT_GIVEN}: f1 = {factor:g} is taken, a smooth driver and a smooth load"
+        return f"{NOT_GIVEN}: f1 = {factor:g} is assumed (smooth driver, smooth load)"
     found = shock_class(factor)
     if found is None:
-        return f"f1 = {factor:g}, which is no class of ISO 10823"
+        return f"f1 = {factor:g}, not a class of ISO 10823"
     driver, driven = found
     return f"driver {driver}, driven machine {driven} (f1 = {factor:g} of ISO 10823)"
 

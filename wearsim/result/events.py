@@ -13,9 +13,9 @@ from wearsim.result.ends import CHAIN, JOINT_WEAR, TOOTH_WEAR, PartEnd
 from wearsim.result.lives import service_measures
 
 BEDDING_IN_HOURS = 20.0
-"""Running time in which a new chain beds in by up to 0.1 %, which no life counts (Tsubaki)."""
+"""Running time in which a new chain beds in by up to 0.1 %, not counted in the life (Tsubaki)."""
 
-_TOLD = {1.0: "1 %", 1.5: "1.5 %, limit of fixed centres; wear often goes faster from here on"}
+_TOLD = {1.0: "1 %", 1.5: "1.5 %, limit of fixed centres; wear often accelerates from here on"}
 """Elongations [%] that are told on the way to the limit."""
 
 
@@ -72,8 +72,8 @@ def _of_the_first_chain(
 ) -> Iterator[tuple[float, str]]:
     """Give when the first chain has bedded in and grown so much, as far as its run goes."""
     given = inputs["wear"].get("running_in_factor")
-    counted = "counted by running_in_factor" if given else "which no life counts"
-    yield BEDDING_IN_HOURS, f"bedding-in over: up to 0.1 % of elongation, {counted}"
+    counted = "counted by running_in_factor" if given else "not counted in the life"
+    yield BEDDING_IN_HOURS, f"end of bedding-in: up to 0.1 % of elongation, {counted}"
     own = history["chain"] == 1
     hours, grown = history["time_hours"][own], history["elongation_percent"][own]
     worn = next((end.hours for end in ends if end.mode == JOINT_WEAR and end.ends), None)

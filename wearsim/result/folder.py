@@ -95,7 +95,7 @@ def read_result(folder: Path) -> dict[str, Any]:
     """Return the fields of a result that was written."""
     if (folder / "drive.json").is_file():
         raise OutputError(
-            f"{folder}: must be the run of one case, but is that of a whole drive: take DriveLife"
+            f"{folder}: must be the run of one case, but is that of a whole drive: use DriveLife"
         )
     try:
         return _stored(folder)

@@ -122,11 +122,11 @@ def practice_text(found: SecondOpinions) -> str:
     if found.outside:
         return f"outside any published practice: {found.outside}"
     if found.span is None or found.mean_hours is None:
-        return "no published rule has hours here"
+        return "no published rule gives hours here"
     count = sum(rule.hours is not None for rule in found.rules)
     mean = rule_hours(found.mean_hours, 4)
     if found.mean_hours > NO_MORE_HOURS:
-        mean += ": wear is not the end of this chain"
+        mean += ": wear does not end the life of this chain"
     return (
         f"{span_text(found.span)} by {count} published rules{counted_text(found)}, mean of the schools "
         f"{mean} (practice, no measurement)"
@@ -160,7 +160,7 @@ def counted_text(found: SecondOpinions) -> str:
     """Return in words what the rules count beside the pull: shocks, another lubrication than recommended."""
     counted = []
     if found.shock_factor != 1.0:
-        counted.append(f"with shocks f1 = {found.shock_factor:g}, which the computed life leaves out")
+        counted.append(f"with shocks f1 = {found.shock_factor:g}, which the computed life does not include")
     if found.lubrication_factor != 1.0:
         counted.append(f"times {found.lubrication_factor:g} for lubrication and surroundings")
     return "".join(f", {one}" for one in counted)

@@ -70,7 +70,10 @@ class JointTable(Table):
         low, high = _REFERENCES[info.field_name or ""]
         if value is None or low <= value <= high:
             return value
-        raise ValueError(f"must lie in {low:g} to {high:g}, beyond which the law holds a rate: give that end")
+        raise ValueError(
+            f"must lie between {low:g} and {high:g}, as the law keeps the rate constant beyond: give the "
+            "nearer end"
+        )
 
     @classmethod
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
@@ -86,7 +89,12 @@ class JointTable(Table):
     def _source_alone(self) -> list[tuple[str, str]]:
         if self.source is None or self.specific_wear_rate_mm2_per_N is not None:
             return []
-        return [("source", "says where specific_wear_rate_mm2_per_N comes from: give that, or remove it")]
+        return [
+            (
+                "source",
+                "names the source of specific_wear_rate_mm2_per_N: give that key too, or remove this one",
+            )
+        ]
 
     def _law_keys_without_law(self) -> list[tuple[str, str]]:
         if self.law == "pressure_speed" or (self.law is None and self.specific_wear_rate_mm2_per_N is None):
@@ -123,12 +131,12 @@ class DriveTable(Table):
         """Return what is wrong between the keys of this table."""
         pairs = (("links", "centre_distance_mm"), ("slack_tension_N", "sag_percent"))
         found = [
-            (second, f"{first} gives this already: remove one of both")
+            (second, f"{first} already gives this: remove one of the two")
             for first, second in pairs
             if getattr(self, first) is not None and getattr(self, second) is not None
         ]
         if self.slack_tension_N is not None and self.inclination_deg is not None:
-            found.append(("inclination_deg", "slack_tension_N is given: remove one of both"))
+            found.append(("inclination_deg", "slack_tension_N is given: remove one of the two"))
         return found
 
 
@@ -178,11 +186,12 @@ class ChainTable(Table):
             single = chains()[chain_name(self.designation) or ""]
             if self.strands is not None and single.strands not in (1, self.strands):
                 message = (
-                    f"the designation is of {single.strands} strands (got {self.strands}): remove one of both"
+                    f"the designation is of {single.strands} strands (got {self.strands}): remove one of "
+                    "the two"
                 )
                 return [("strands", message)]
             given += [key for key in self._known_by_designation() if getattr(self, key) is not None]
-            return [(key, "a designation gives this already: remove one of both") for key in given]
+            return [(key, "a designation already gives this: remove one of the two") for key in given]
         missing = [key for key in own if key not in given]
         if missing:
             message = (
@@ -273,7 +282,7 @@ class SprocketTable(Table):
         if file and getattr(self, file) is None:
             found.append((file, f"profile = {self.profile!r} needs this key"))
         found += [
-            (key, f"form = {self.form!r} gives this already: remove one of both")
+            (key, f"form = {self.form!r} already gives this: remove one of the two")
             for key in BETWEEN_FORMS
             if self.form is not None and getattr(self, key) is not None
         ]
@@ -294,7 +303,7 @@ class TakeUpTable(Table):
         """Return what is wrong between the keys of this table."""
         if self.travel_mm is None or (len(self.travel_mm) == 2 and self.travel_mm[0] < self.travel_mm[1]):
             return []
-        message = f"must be the two ends of the travel, the lesser one first (got {list(self.travel_mm)})"
+        message = f"must be the two ends of the travel, the smaller one first (got {list(self.travel_mm)})"
         return [("travel_mm", message)]
 
 
@@ -332,17 +341,19 @@ class PlaceTable(Table):
         if self.position_mm is not None and len(self.position_mm) != 2:
             found.append(("position_mm", f"must be x and y of the centre (got {list(self.position_mm)})"))
         found += [
-            (key, "an idler takes no power: remove this, or give it another role")
+            (key, "an idler transmits no power: remove this, or give it another role")
             for key in ("power_share", "torque_N_m")
             if self.role == "idler" and getattr(self, key) is not None
         ]
         if self.power_share is not None and self.torque_N_m is not None:
-            found.append(("torque_N_m", "power_share gives this already: remove one of both"))
+            found.append(("torque_N_m", "power_share already gives this: remove one of the two"))
         if self.cog and abs(sum(cog.share_of_time for cog in self.cog) - 1.0) > 1e-6:
             total = sum(cog.share_of_time for cog in self.cog)
             found.append(("cog", f"share_of_time of all cogs must sum to 1 (got {total:.9g})"))
         if self.cog and not all_differ([cog.teeth for cog in self.cog]):
-            found.append(("cog", "cogs must have different teeth: put those of the same into one"))
+            found.append(
+                ("cog", "cogs must have different numbers of teeth: join those with the same number")
+            )
         return found
 
 
@@ -378,7 +389,7 @@ class PlacedSprocketTable(SprocketTable, PlaceTable):
         else:
             found += SprocketTable.conflicts(self)
         if self.cog and self.teeth is not None:
-            found.append(("teeth", "the cogs give their own: remove one of both"))
+            found.append(("teeth", "each cog gives its own: remove one of the two"))
         if not self.cog and self.teeth is None:
             found.append(("teeth", "this key is required and missing"))
         return found
@@ -387,7 +398,7 @@ class PlacedSprocketTable(SprocketTable, PlaceTable):
         """Return what is wrong with a wheel without teeth."""
         found = []
         if self.role != "idler":
-            found.append(("role", "a smooth wheel takes no power: must be 'idler'"))
+            found.append(("role", "a smooth wheel transmits no power: must be 'idler'"))
         given = (key for key in type(self).model_fields if key in self.model_fields_set)
         text = "a smooth idler has no teeth: remove this, or smooth_diameter_mm"
         return [*found, *((key, text) for key in given if key not in _OF_A_SMOOTH_WHEEL)]
@@ -442,8 +453,8 @@ def _bins(value: object) -> object:
     pair = value if isinstance(value, list) and len(value) == 2 else [None]
     if not all(type(entry) is int and 1 <= entry <= _MAX_BINS for entry in pair):
         raise ValueError(
-            f"must be two whole numbers from 1 to {_MAX_BINS}, bins of the load and of the speed, "
-            "such as [20, 8]"
+            f"must be two whole numbers from 1 to {_MAX_BINS}, the numbers of load and speed bins, such as "
+            "[20, 8]"
         )
     return value
 
@@ -489,7 +500,7 @@ class LoadTable(Table):
         if self.duty_file is not None:
             keys = (*LOAD_KEYS, "speed_rpm", "regime")
             return [
-                (key, "duty_file gives load and speed: remove one of both")
+                (key, "duty_file gives load and speed: remove one of the two")
                 for key in keys
                 if getattr(self, key) is not None
             ]

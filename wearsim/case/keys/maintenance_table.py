@@ -20,7 +20,7 @@ def _elongations(value: object) -> object:
             raise ValueError(f"every entry must be a number above 0 and up to {_MAX_PERCENT:g}")
     numbers = [float(entry) for entry in value]
     if len(set(numbers)) < len(numbers):
-        raise ValueError("every entry must come once")
+        raise ValueError("each entry must be given only once")
     return sorted(numbers)
 
 
@@ -59,7 +59,7 @@ class MaintenanceTable(Table):
             ("downtime_cost_per_hour", "chain_price"),
         )
         return [
-            (key, f"the cost needs {other} too: give both or none")
+            (key, f"the cost needs {other} too: give both or neither")
             for key, other in needs
             if getattr(self, key) is not None and getattr(self, other) is None
         ]

@@ -47,7 +47,7 @@ class ParameterRange(Table):
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
         if not math.isfinite(float(self.high) - float(self.low)):
-            return [("high", "low and high must lie less than 1.8e308 apart: give nearer ends")]
+            return [("high", "low and high must differ by less than 1.8e308: give closer ends")]
         if self.low < self.high:
             return []
         return [("high", f"must be above low = {self.low:g} (got {self.high:g})")]
@@ -102,7 +102,7 @@ class OptimiseTable(Table):
         """Return what is wrong between the keys of this table."""
         found = []
         if len(set(self.objectives)) < len(self.objectives):
-            found.append(("objectives", "every objective once, but one is given twice: remove it"))
+            found.append(("objectives", "each objective may appear once, but one is given twice: remove it"))
         found += [
             (f"parameters.{key}", "each value may appear once, but one is given twice: remove it")
             for key, values in self.parameters.items()

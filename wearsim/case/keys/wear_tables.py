@@ -117,7 +117,7 @@ class _WearTable(Table):
                 (key, f"law = {self.law!r} needs this key{alternative}") for key in wanted if key not in given
             ]
         elif self.condition is not None and self.law != "archard":
-            message = f"a condition is one of law = 'archard': remove it or law = {self.law!r}"
+            message = f"a condition applies to law = 'archard' only: remove it or law = {self.law!r}"
             found.append(("condition", message))
         found += self._hardness_faults(given)
         for pair in _TOGETHER:
@@ -126,7 +126,7 @@ class _WearTable(Table):
                 other = pair[1 - pair.index(missing[0])]
                 found.append((missing[0], f"{other} needs this key"))
         if self.cycles_exponent is not None and self.running_in_factor is not None:
-            message = "is a running-in that never ends: remove it or running_in_factor"
+            message = "describes running-in that never ends: remove it or running_in_factor"
             found.append(("cycles_exponent", message))
         return found
 
@@ -136,7 +136,12 @@ class _WearTable(Table):
             return []
         if self.condition is None:
             if given:
-                return [("tooth_hardness", f"{given[0]} says how fast the teeth wear: remove one of both")]
+                return [
+                    (
+                        "tooth_hardness",
+                        f"{given[0]} already sets how fast the teeth wear: remove one of the two",
+                    )
+                ]
             return [("tooth_hardness", "needs lubrication.lubricant: both give the wear rate of the teeth")]
         if self.condition.startswith(f"{self.tooth_hardness}, "):
             return []
@@ -189,7 +194,7 @@ class MaterialTable(Table):
         if self.name is None:
             return []
         return [
-            (key, "the material's name gives this already: remove one of both")
+            (key, "the material's name already gives this: remove one of the two")
             for key in ("youngs_modulus_MPa", "poissons_ratio")
             if getattr(self, key) is not None
         ]
@@ -203,7 +208,7 @@ class MaterialsTable(Table):
 
 
 Depth = Annotated[Positive, Field(ge=1e-9)]
-"""Worn off: far below an atom is a slip of the pen."""
+"""Wear depth: a value far below the size of an atom is a typing error."""
 
 
 def _limit(row: LimitKey) -> Any:
@@ -285,7 +290,7 @@ Rockwell = Annotated[PositiveNumber, Field(le=70.0), BeforeValidator(_mean), Wit
 
 NITRIDED_LIMIT = (
     "contact_limit_MPa",
-    "treatment = 'nitrided' needs this key, its formula is lost in the source: textbooks take 1050 MPa",
+    "treatment = 'nitrided' needs this key, as its formula is missing in the source: textbooks use 1050 MPa",
 )
 """The fault of nitrided flanks without an endurance limit."""
 

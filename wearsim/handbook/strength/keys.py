@@ -62,7 +62,7 @@ class StrengthDriveTable(Table):
         if self.life_hours is None:
             return []
         return [
-            (key, "life_hours gives the life already: remove one of both")
+            (key, "life_hours gives the life already: remove one of the two")
             for key in ("life_years", "year_share", "day_share")
             if key in self.model_fields_set
         ]
@@ -124,7 +124,7 @@ class StrengthGearTable(Table):
             message = f"belongs to treatment = {' or '.join(map(repr, _YIELDS))}: remove it"
             return [("yield_strength_MPa", message)]
         if self.greatest_contact_MPa is not None:
-            message = "greatest_contact_MPa gives what this is for already: remove one of both"
+            message = "greatest_contact_MPa gives what this is for already: remove one of the two"
             return [("yield_strength_MPa", message)]
         return []
 
@@ -218,7 +218,7 @@ class StrengthTables(CalculationTables):
             return []
         found = []
         if self.drive.regime is not None:
-            found.append(("drive.regime", "[[load_spectrum]] gives the loads already: remove one of both"))
+            found.append(("drive.regime", "[[load_spectrum]] gives the loads already: remove one of the two"))
         total = math.fsum(step.share_of_time or 0.0 for step in self.load_spectrum)
         if abs(total - 1.0) > 1e-6:
             message = f"the shares of time must come to 1, come to {total:.6g}: correct them"

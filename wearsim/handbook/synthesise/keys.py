@@ -40,7 +40,7 @@ class MeshLoadTable(Table):
         """Return what is wrong between the keys of this table."""
         torque = ("pinion_torque_N_m", "face_width_mm")
         if self.load_per_width_N_per_mm is not None:
-            message = "load_per_width_N_per_mm gives the load: remove one of both"
+            message = "load_per_width_N_per_mm gives the load: remove one of the two"
             return [(key, message) for key in torque if getattr(self, key) is not None]
         message = "give pinion_torque_N_m and face_width_mm, or load_per_width_N_per_mm"
         return [(key, message) for key in torque if getattr(self, key) is None]

@@ -54,7 +54,7 @@ def _stiffness(case: CaseRecord, tables: GearTables, modulus: float) -> float:
     given = table.pair_stiffness_N_per_mm_um
     if given is None:
         given = PAIR_STIFFNESS * modulus / _STEEL
-        why = "ISO 6336-1: 14 for usual gears of steel with 206 000 MPa, times their moduli over it"
+        why = "ISO 6336-1: 14 for usual steel gears (206 000 MPa), in proportion to their moduli"
         case.take("mechanism.pair_stiffness_N_per_mm_um", given, why)
     return 1000.0 * given
 
@@ -66,8 +66,8 @@ def _third_pair(mesh: Mesh, torque: float, stiffness: float) -> list[str]:
     if stiffness == 0.0 or gap * stiffness * float(mesh.lever.min()) >= torque:
         return []
     return [
-        f"with a contact ratio of {mesh.contact_ratio:.3f} a third pair of teeth comes to bear under this "
-        "load, which is left out: loads and wear are less than stated"
+        f"with a contact ratio of {mesh.contact_ratio:.3f} a third pair of teeth carries load here, which "
+        "is neglected: loads and wear are less than stated"
     ]
 
 

@@ -171,23 +171,24 @@ class GearPairMechanism:
     def assumptions(self) -> list[str]:
         """Return what this picture takes for granted."""
         sharing = (
-            f"pairs of teeth share the load as springs of {self.stiffness / 1000.0:g} N/(mm um), worn "
-            "gaps and the corners of the tips before and after the path of contact included"
+            f"pairs of teeth share the load as springs of {self.stiffness / 1000.0:g} N/(mm um), with gaps "
+            "by wear and with contact of the tip corners before and after the path of contact"
             if self.stiffness
-            else "teeth are rigid and share the load half and half where two pairs touch, also when worn"
+            else "teeth are rigid; two pairs in contact share the load equally, also when worn"
         )
         common = math.gcd(*self.pair.teeth)
         meeting = (
             "every tooth meets every tooth of its mate (hunting)"
             if common == 1
-            else f"teeth meet every {common}. of their mate's only; all are alike when new and so stay"
+            else f"each tooth meets only one in {common} teeth of its mate; all are alike when new and stay "
+            "so"
         )
         return [
             "worn flanks meet where they did when new, on the line of action, with the same sliding",
             sharing,
             meeting,
-            "where a step of the load leaves a hollow the mate bridges it: the relative curvature is "
-            f"not taken below {_LEAST_CURVATURE:g} of that of the new flanks; pressures there are not "
-            "known, wear by a law with pressure exponent 1 does not depend on them",
-            "dynamic loads, misalignment, and wear by the corner of a tip outside the path are left out",
+            "the mate bridges hollows that a step of the load leaves: the relative curvature is not taken "
+            f"below {_LEAST_CURVATURE:g} of that of the new flanks; pressures there are not known, but wear "
+            "with pressure exponent 1 does not depend on them",
+            "dynamic loads, misalignment and wear by tip corners outside the path of contact are neglected",
         ]

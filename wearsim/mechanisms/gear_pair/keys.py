@@ -158,8 +158,8 @@ class GearWearTable(WearTable):
         chains = {
             "condition": "wear conditions are those of sprockets: give specific_wear_rate_mm2_per_N",
             "roller_wear_ratio": "belongs to chains: remove it",
-            "case_depth_mm": "a hardened layer is not told apart on gears: remove it",
-            "core_factor": "a hardened layer is not told apart on gears: remove it",
+            "case_depth_mm": "a hardened layer is not modelled on gears: remove it",
+            "core_factor": "a hardened layer is not modelled on gears: remove it",
         }
         found = [(key, text) for key, text in chains.items() if getattr(self, key) is not None]
         return found + [entry for entry in super().conflicts() if entry[0] not in chains]
@@ -184,7 +184,7 @@ class GearLubricationTable(LubricationTable):
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
-        rows = "the rows of the catalogue are those of chains: give"
+        rows = "the rows of the catalogue are for chains: give"
         chains = {
             "lubricant": f"{rows} lasts_hours and dry_factor",
             "environment": f"{rows} contamination_factor",

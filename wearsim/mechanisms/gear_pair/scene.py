@@ -15,12 +15,12 @@ from wearsim.geometry.scene import Circle, Label, Scene, around, letter_height, 
 from wearsim.geometry.wheel_outline import ToothSpace, WheelShape, worn_space
 
 _FLANKS_ONLY = (
-    "flanks from where contact starts to the tip: the case tells no root, so the outline is open",
+    "flanks from the start of contact to the tip: the case gives no root, so the outline is open",
     "all teeth worn alike, the driving side only",
 )
 _ROOTED = (
-    "root: radial line and arc down to 0.25 module below the foot; the case tells none, and it does "
-    "not touch",
+    "root: radial line and arc down to 0.25 module below the foot; assumed, as the case gives none; it has "
+    "no contact",
     "all teeth worn alike, the driving side only",
 )
 

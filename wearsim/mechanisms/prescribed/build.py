@@ -76,9 +76,7 @@ def prescribed_drive(
         )
         return None
     if wear.law == "t_gamma" and table.slip_ratio is None:
-        case.faults.add(
-            key, "law = 't_gamma' needs the column slip_ratio in the place of sliding_distance_mm"
-        )
+        case.faults.add(key, "law = 't_gamma' needs the column slip_ratio in place of sliding_distance_mm")
         return None
     if wear.pressure_exponent < 1.0 and table.slip_ratio is not None:
         case.faults.add(

@@ -85,6 +85,6 @@ class PrescribedMechanism:
     def assumptions(self) -> list[str]:
         """Return what this picture takes for granted."""
         return [
-            "load and sliding along the flank are the table's and stay so as it wears",
+            "load and sliding along the flank are those of the table and do not change with wear",
             "the curvature of the first and the last row does not change",
         ]

@@ -42,8 +42,7 @@ def strand_drive(
     if wear.changes_with_load and len(blocks) > 1:
         faults.add(
             f"wear.{wear.changes_with_load}",
-            "holds for one constant load: the blocks of a duty become one equivalent load, which it does not "
-            "allow; remove it or the duty",
+            "holds for one constant load only, not for the equivalent load of a duty: remove it or the duty",
         )
     fraction = slip_fraction(case)
     evolute = table.profile == "evolute"

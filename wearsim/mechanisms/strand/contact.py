@@ -134,7 +134,7 @@ class StrandMechanism:
         sliding = (
             "the roller does not turn (roller_slip_fraction 1)"
             if self.slip_fraction == 1.0
-            else f"the roller turns and slides {self.slip_fraction:g} of the full way"
+            else f"the roller turns and slides over {self.slip_fraction:g} of the full distance"
         )
         return [
             sliding,

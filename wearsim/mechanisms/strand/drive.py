@@ -210,8 +210,8 @@ def strand_scene(wheel: WheelShape, tooth: Tooth, pitch: float, pull: float, eng
         (
             f"{tooth.teeth} teeth, pitch {pitch:g} mm, centrode radius {strand.centrode_radius:.2f} mm, line "
             f"of roller centres {strand.offset:.4g} mm inside it",
-            f"a roller in every {'gap' if engaged_every == 1 else f'{engaged_every}. gap'}; the strand is "
-            "straight and guided: no wrap, and the second sprocket has no part in it",
+            f"a roller in {'every gap' if engaged_every == 1 else f'one gap out of {engaged_every}'}; the "
+            "strand is straight and guided: no wrap, no second sprocket",
             f"pull {grouped(pull)} N at most",
         ),
     ).with_scale()

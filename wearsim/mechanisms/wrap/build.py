@@ -56,13 +56,11 @@ def wrapped_drive(
     if wear.changes_with_load:
         faults.add(
             f"wear.{wear.changes_with_load}",
-            "asks for the pressure and the slip of a contact that travels, but rollers of a wrap rest in "
-            "their gaps: remove it, or take kind = 'strand', 'prescribed' or gears",
+            "needs the pressure and the slip of a travelling contact, but rollers of a wrap rest in their "
+            "gaps: remove it, or use kind = 'strand', 'prescribed' or gears",
         )
     if tables.film is not None:
-        faults.add(
-            "film", "is that of a contact that rolls, but rollers of a wrap rest in their gaps: remove it"
-        )
+        faults.add("film", "is for a rolling contact, but rollers of a wrap rest in their gaps: remove it")
     if table.role is None:
         case.take("sprocket.role", "driver", "default")
     given = tables.drive or DriveTable()
@@ -98,7 +96,7 @@ def wrapped_drive(
     if least is not None and least > slack:
         faults.add(
             "stop.min_slack_tension_N",
-            f"must not be above the slack tension that the drive has, {slack:.4g} N (got {least:g})",
+            f"must not exceed the slack tension of the drive, {slack:.4g} N (got {least:g})",
         )
     return WrapDrive(
         outline=shape.outline,
@@ -195,21 +193,21 @@ def _layout(case: ChainRecord, chain: Chain, table: DriveTable) -> DriveLayout |
     assert sprocket is not None
     if sprocket.engaged_every > 1 and sprocket.teeth % sprocket.engaged_every:
         case.warnings.append(
-            f"{sprocket.teeth} gaps of which every {sprocket.engaged_every}. carries a roller: the drive "
-            f"is laid out with {sprocket.teeth // sprocket.engaged_every} teeth"
+            f"{sprocket.teeth} gaps, a roller in one out of {sprocket.engaged_every}: the drive is laid out "
+            f"with {sprocket.teeth // sprocket.engaged_every} teeth"
         )
     teeth = sprocket.teeth // sprocket.engaged_every
     mate = table.mate_teeth
     if mate is None:
         mate = teeth
-        case.take("drive.mate_teeth", mate, "as many as the sprocket: half a turn of wrap")
+        case.take("drive.mate_teeth", mate, "as many as this sprocket: wrap angle 180 degrees")
     teeth_1, teeth_2 = (teeth, mate) if sprocket.role != "driven" else (mate, teeth)
     links = table.links
     try:
         if table.centre_distance_mm is not None:
             layout = layout_with_centre(chain.pitch, teeth_1, teeth_2, table.centre_distance_mm)
             case.assumptions.append(
-                f"{layout.links} links, the next even number, at a centre distance of "
+                f"{layout.links} links, rounded up to an even number, at a centre distance of "
                 f"{layout.centre_distance:.6g} mm"
             )
         else:
@@ -252,8 +250,8 @@ def _tensions(
     idle = math.fsum(block.share for block in found if block.tension == slack)
     if idle:
         case.assumptions.append(
-            f"for {100 * idle:.3g} % of the cycles the tight strand of the log pulls no more than the "
-            "slack one, whose tension it takes then"
+            f"for {100 * idle:.3g} % of the cycles the tight strand pulls no more than the slack one: the "
+            "slack tension is used there"
         )
     case.assumptions.append(
         f"tight strand {_range([block.tension for block in found], 6)} N, slack strand {slack:.4g} N, and "

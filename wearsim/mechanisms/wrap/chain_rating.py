@@ -75,7 +75,7 @@ def drive_notes(
 def _swing(layout: DriveLayout | LoopLayout) -> str:
     if isinstance(layout, LoopLayout):
         return ""
-    return f", the taut centre distance by {layout.polygon_swing:.1g} mm to either side"
+    return f", the taut centre distance by +- {layout.polygon_swing:.1g} mm"
 
 
 def _laid_out(layout: DriveLayout | LoopLayout) -> str:
@@ -104,4 +104,4 @@ def meetings_note(loaded: int, links: int, alternating: bool) -> str:
     )
     if not (meetings.same_link_kind and alternating):
         return text
-    return f"{text}, only inner or only outer links for life: teeth wear unevenly"
+    return f"{text}, always inner or always outer links: teeth wear unevenly"

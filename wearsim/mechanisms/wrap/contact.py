@@ -260,10 +260,10 @@ class WrapContact(RestingContact):
         return [
             *self.mechanism.assumptions(),
             f"slip of a roller on its seat at the first and the last tooth: {100.0 * sliding.fraction:g} % "
-            f"of the articulation angle of {math.degrees(self.mechanism.pitch_angle):.3g} degrees; along the "
-            f"flank: {100.0 * sliding.path_fraction:g} % of its way",
-            "wear from the pressure of the roller on the worn gap as an elastic foundation, the pressures "
-            "shown from half-space contact; "
+            f"of the articulation angle of {math.degrees(self.mechanism.pitch_angle):.3g} degrees; along "
+            f"the flank: {100.0 * sliding.path_fraction:g} % of its path",
+            "wear by the pressure of the roller on the worn gap as an elastic foundation; the pressures "
+            "shown are those of a half-space contact; "
             + ("rollers wear all round" if self.mate_area_ratio else "rollers do not wear"),
             "every tooth alike"
             if self.bodies == 1

@@ -381,7 +381,9 @@ class WrapDrive(Drive):
             message, key = self._jumping(limits), "drive.slack_tension_N"
         elif least is not None and not self.rollers.with_slack(least).holds(0.0):
             needed = 1.005 * self.rollers.smallest_slack_tension(0.0)  # rounded up
-            message = f"must be above what a new drive needs not to jump, {needed:.3g} N (got {least:g})"
+            message = (
+                f"must be above the slack tension at which a new drive jumps, {needed:.3g} N (got {least:g})"
+            )
             key = "stop.min_slack_tension_N"
         else:
             return

@@ -85,11 +85,11 @@ def _standard_gap(case: ChainRecord, table: SprocketTable, chain: Chain) -> Gap:
         **_options(case, table, chain),
     )
     if table.tip_diameter_mm is None:
-        case.take("sprocket.tip_diameter_mm", 2.0 * gap.tip_radius, "the standard's")
+        case.take("sprocket.tip_diameter_mm", 2.0 * gap.tip_radius, "by the standard")
     elif gap.truncated:
         case.warnings.append(
-            f"the teeth are pointed at a diameter of {2.0 * gap.tip_radius:.5g} mm, below "
-            f"sprocket.tip_diameter_mm = {table.tip_diameter_mm:g}: cut off there"
+            f"the teeth come to a point at a diameter of {2.0 * gap.tip_radius:.5g} mm, below "
+            f"sprocket.tip_diameter_mm = {table.tip_diameter_mm:g}: this is used instead"
         )
     return gap
 
@@ -196,9 +196,9 @@ def _drawn(case: ChainRecord, table: SprocketTable, chain: Chain, nodes: int) ->
     count = 2 * x.size if abs(x[0]) <= ON_CENTRE_LINE else x.size
     if count < _ENOUGH_POINTS:
         case.warnings.append(
-            f"{PurePath(name).name} gives the gap by {count} points: where arcs meet the outline may be "
-            f"0.01 mm off, forces then by several percent; give {_ENOUGH_POINTS} or more, in a drawing arcs "
-            "or shorter lines"
+            f"{PurePath(name).name} gives the gap by {count} points: the outline may be 0.01 mm off where "
+            f"arcs meet, and forces wrong by several percent; give {_ENOUGH_POINTS} or more, in a drawing "
+            "arcs or shorter lines"
         )
     return GapShape(outline, None) if _seats_roller(case, key, outline, table, chain) else None
 
@@ -268,7 +268,7 @@ def _seats_roller(case: ChainRecord, key: str, outline: Profile, table: Sprocket
         way = "higher" if seat > radius else "lower"
         case.warnings.append(
             f"the gap of {key} seats a roller {seat:.5g} mm from the sprocket's centre, {beyond:.2g} mm "
-            f"{way} than a new sprocket of {table.teeth} teeth would ({new}): right if it is worn or made "
-            "so, else check teeth, chain and points"
+            f"{way} than a new sprocket of {table.teeth} teeth would ({new}): correct if it is worn or was "
+            "made that way, otherwise check teeth, chain and points"
         )
     return True

@@ -88,8 +88,8 @@ def with_teeth_alike(
     ]
     shown = " to ".join(dict.fromkeys(f"{end:.3g}" for end in (min(factors), max(factors))))
     case.assumptions.append(
-        f"teeth wear {shown} times as fast as their coefficient says, by the law of the joints: no tooth was "
-        "measured, but so sprockets last two or three chains at every speed, as in practice"
+        f"teeth wear {shown} times as fast as by their coefficient, in proportion to the joints: not "
+        "measured on teeth, but sprockets then last two or three chains at every speed, as in practice"
     )
     return tuple(
         replace(block, wear_factor=block.wear_factor * factor)
@@ -158,7 +158,7 @@ def _band(case: ChainRecord, law: JointLaw, state: JointState) -> WearBand:
     if table.band_factor is not None or is_own:
         factor = table.band_factor or DEFAULT_BAND
         if table.band_factor is None:
-            case.take("joint.band_factor", factor, "the rate of the joints is the user's")
+            case.take("joint.band_factor", factor, "the joint wear rate is given by the user")
         band = JointBand(1.0 / factor, factor, f"joints: factor {factor:g} to either side")
         # A factor beside a rate is one of where it was found, beside a condition one of here.
         found_elsewhere = is_own and not law.is_constant
@@ -189,7 +189,7 @@ def _tooth_band(case: ChainRecord, law: JointLaw, state: JointState, wear: WearI
 def _say_law(case: ChainRecord, law: JointLaw, condition: WearCondition, state: JointState) -> None:
     """Record the rate of a condition, and what its law makes of it on this drive."""
     name = repr(condition.condition)
-    of = f"wear condition {name}" if _named(case) else f"as in {name}, none is named"
+    of = f"wear condition {name}" if _named(case) else f"as for {name}, no condition is given"
     ends = f"{condition.joint_low:g} to {condition.joint_high:g}"
     case.take(JOINT_COEFFICIENT, law.coefficient, f"{of}: {ends}; {condition.joint_source}")
     _record_law(case, law)
@@ -203,7 +203,7 @@ def _say_own_law(case: ChainRecord, law: JointLaw, condition: WearCondition, sta
     elif _named(case):
         _warn_of_rate(case, condition, law.coefficient, state)
     if law.is_constant and _table(case).law != PRESSURE_SPEED:
-        case.take("joint.law", CONSTANT, "a rate that is given holds at every pressure and speed")
+        case.take("joint.law", CONSTANT, "a given rate holds at every pressure and speed")
     else:
         _record_law(case, law)
     _say_rate(case, law, condition, state)
@@ -215,7 +215,7 @@ def _say_rate(case: ChainRecord, law: JointLaw, condition: WearCondition, state:
         case.assumptions.append(f"{_law_in_words(law)}; here {law.rate(*state):.3g} mm2/N {_at(state)}")
     elif _table(case).law == PRESSURE_SPEED:
         case.assumptions.append(
-            f"joint.law = {PRESSURE_SPEED!r} is constant here: the exponents of wear condition "
+            f"joint.law = {PRESSURE_SPEED!r} has no effect here: the exponents of wear condition "
             f"{condition.condition!r} are those of a constant rate; give joint.pressure_exponent, "
             "speed_exponent or pitch_exponent"
         )

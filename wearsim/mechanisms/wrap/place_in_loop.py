@@ -56,13 +56,17 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
     before = case.faults.count
     for key in _GIVEN_BY_PLACES:
         if getattr(table, key) is not None:
-            case.faults.add(f"drive.{key}", "the sprockets and their position_mm give this: remove it")
+            case.faults.add(
+                f"drive.{key}", "this follows from the sprockets and their position_mm: remove it"
+            )
     if place.take_up is None and table.sag_percent is not None:
-        case.faults.add("drive.sag_percent", "without a take_up the links give the sag: remove it")
+        case.faults.add("drive.sag_percent", "without a take_up the number of links sets the sag: remove it")
     if place.force:
         for key in ("slack_tension_N", "sag_percent"):
             if getattr(table, key) is not None:
-                case.faults.add(f"drive.{key}", "the force of the take_up gives this: remove one of both")
+                case.faults.add(
+                    f"drive.{key}", "the force of the take_up already gives this: remove one of the two"
+                )
     if case.faults.count > before:
         return None
     try:
@@ -75,12 +79,12 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
             case.faults.add(_key_of(text, place.wheels), text)
         return None
     if table.links is None:
-        case.take("drive.links", layout.links, "the even number that fits the sprockets as they stand")
+        case.take("drive.links", layout.links, "the even number that fits the sprockets as placed")
     if len(place.wheels) == 2:
         case.assumptions.append(_sense_of_two(place))
     case.assumptions += [
-        f"{wheel.name!r} is smooth: rollers run on it, {links:.4g} links would lie round it, its joints turn "
-        "as on a sprocket of so many teeth; neither its wear nor that of the rollers on it is calculated"
+        f"{wheel.name!r} is smooth: rollers run on it, and joints articulate as on a sprocket of "
+        f"{links:.4g} teeth; neither its wear nor that of the rollers on it is calculated"
         for wheel, links in zip(loop.wheels, loop.teeth, strict=True)
         if not wheel.teeth
     ]
@@ -88,7 +92,8 @@ def laid_out(case: ChainRecord, chain: Chain, table: DriveTable, place: PlaceInL
         case.warnings.append(odd_links_warning(layout.links))
     if drive.take_up is not None:
         case.assumptions.append(
-            f"take-up {drive.take_up.wheel!r} stands {layout.travel:.4g} mm from its place for a new chain"
+            f"take-up {drive.take_up.wheel!r} is {layout.travel:.4g} mm from its given position with a new "
+            "chain"
         )
     return layout
 
@@ -151,7 +156,7 @@ def _take_up(case: ChainRecord, loop: ChainLoop, place: PlaceInLoop) -> TakeUp |
     if travel is None:
         travel = -_TRAVEL * loop.pitch, _TRAVEL * loop.pitch
         case.assumptions.append(
-            f"take-up {taker!r} can move by {travel[1]:.4g} mm to both sides, {_TRAVEL:g} pitches"
+            f"take-up {taker!r} can move by {travel[1]:.4g} mm either way, {_TRAVEL:g} pitches"
         )
     least, most = travel
     return TakeUp(taker, direction, least, most)
@@ -167,11 +172,12 @@ def check_travel(case: ChainRecord, layout: LoopLayout, elongation: float) -> No
     except (CaseError, GeometryError):
         case.warnings.append(
             f"the travel of take-up {take_up.wheel!r}, {take_up.least:.4g} to {take_up.most:.4g} mm, has no "
-            f"room for an elongation of {100.0 * elongation:.3g} %: take two links out then, or give more"
+            f"room for an elongation of {100.0 * elongation:.3g} %: remove two links then, or give more "
+            "travel"
         )
         return
     case.assumptions.append(
-        f"take-up {take_up.wheel!r} moves on to {travel:.4g} mm as the chain grows by "
+        f"take-up {take_up.wheel!r} moves to {travel:.4g} mm as the chain elongates by "
         f"{100.0 * elongation:.3g} %"
     )
 
@@ -185,7 +191,7 @@ def loop_loads(
     for load in (*duty.rated, *duty.blocks):
         if load.kind == "tension_N":
             case.faults.add(
-                load.key, "spans have tensions of their own here: give power_kW or torque_N_m of the driver"
+                load.key, "each span has its own tension here: give power_kW or torque_N_m of the driver"
             )
     sag = None if table.sag_percent is None else 0.01 * table.sag_percent
     if sag is None and layout.drive.take_up is not None and not layout.drive.take_up_force:
@@ -211,9 +217,9 @@ def loop_loads(
     taut = layout.drive.take_up is None and layout.excess < STRETCH * layout.links
     if taut and table.slack_tension_N is None:
         case.assumptions.append(
-            f"the chain fits without slack, {layout.excess * layout.pitch:+.3g} mm: by its stretch, from "
-            f"drive.link_stiffness_N_per_mm, it has {levels[0].force:.4g} N at rest, which its loosest span "
-            "keeps"
+            f"the chain fits without slack ({layout.excess * layout.pitch:+.3g} mm): with "
+            f"drive.link_stiffness_N_per_mm its tension at rest is {levels[0].force:.4g} N, which the "
+            "loosest span keeps"
         )
     try:
         forces = [
@@ -222,7 +228,7 @@ def loop_loads(
         ]
     except CaseError as error:
         braking = any(load.reverse for load in loads)
-        braked = " (loads below 0 of the log swap tight and slack spans)" if braking else ""
+        braked = " (negative loads of the log swap tight and slack spans)" if braking else ""
         for fault in error.faults:
             case.faults.add(_key_of(fault.message, layout.loop.wheels), f"{fault.message}{braked}")
         return None

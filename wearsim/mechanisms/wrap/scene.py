@@ -28,7 +28,7 @@ def wrap_wheel(
     if drive.gap is not None:
         notes = [f"{drive.gap.form}: arcs and lines of the standard, exactly"]
     else:
-        notes = ["the gap as the case gives it, by points; tips are arcs about the axis"]
+        notes = ["the gap as given by points; tips are arcs about the axis"]
     worn: tuple[ToothSpace, ...] = ()
     worn_most = 0
     if last is not None:
@@ -37,7 +37,7 @@ def wrap_wheel(
         worn = tuple(new if kind is None else kinds[kind] for kind in places)
         worn_most = places.index(int(last["gap_kind"][int(last["depth_mm"].argmax())]) - 1)
         if len(kinds) > 1:
-            notes.append("gaps that meet inner links and gaps that meet outer ones in turn")
+            notes.append("gaps that meet inner links and gaps that meet outer links alternate")
         else:
             notes.append(worn_alike(math.gcd(drive.gaps, engaged_every)))
     return WheelShape(

@@ -90,18 +90,18 @@ def _centres(wheels: list[dict[str, Any]]) -> str:
 
 
 def _take_up(layout: DriveLayout | LoopLayout, limit: float) -> list[tuple[str, str]]:
-    grown = f"grown by {100.0 * limit:.3g} %"
+    grown = f"at {100.0 * limit:.3g} % elongation"
     if isinstance(layout, DriveLayout):
         worn = layout_with_links(layout.pitch * (1.0 + limit), layout.teeth_1, layout.teeth_2, layout.links)
         more = worn.centre_distance - layout.centre_distance
-        return [("take-up", f"nominal centre distance with a new chain, +{more:.2f} mm with one {grown}")]
+        return [("take-up", f"nominal centre distance with a new chain, +{more:.2f} mm {grown}")]
     take_up = layout.drive.take_up
     if take_up is None:
         return [("take-up", "none")]
     try:
-        worn_travel = f"{layout.travel_at(limit):.2f} mm with one {grown}"
+        worn_travel = f"{layout.travel_at(limit):.2f} mm {grown}"
     except (CaseError, GeometryError):
-        worn_travel = f"no room for one {grown}"
+        worn_travel = f"no room {grown}"
     return [
         (
             "take-up",

@@ -175,4 +175,4 @@ def _not_known(plan: DrivePlan) -> list[str]:
     if not outlived:
         return []
     text = f"when to replace {', '.join(outlived)}: did not wear out in the simulated time"
-    return [f"{text}; a longer run.horizon_hours may tell"]
+    return [f"{text}; a longer run.horizon_hours may show"]

@@ -168,7 +168,9 @@ def chain_tables(
         HtmlTable(
             "practice", "Published rules", f"{practice_text(practice)}.", RULE_HEAD, rule_rows(practice)
         ),
-        HtmlTable("events", "Events", "Until each part is replaced first.", EVENT_HEAD, event_rows(events)),
+        HtmlTable(
+            "events", "Events", "Time to the first replacement of each part.", EVENT_HEAD, event_rows(events)
+        ),
     ]
 
 

@@ -208,7 +208,7 @@ def _loads_chart(new: "ToothLoads", grown: "ToothLoads") -> Chart:
         )
         for tooth in range(max(force.size for force in rows))
     )
-    head = ("tooth", "force, new chain, N", "force, grown chain, N", "load, new chain, N/mm")
+    head = ("tooth", "force, new chain, N", "force, worn chain, N", "load, new chain, N/mm")
     return Chart(
         name="loads",
         title="tooth loads over the wrap",

@@ -41,8 +41,10 @@ _FIRST_VALUE = 2
 _BOLD = ("life", "overloaded", "life_hours")
 _AT_LEAST = "_at_least"
 _MEANINGS = {
-    "life": "life in words, on a wrap of chain or sprocket, whichever ends first; > where none has ended",
-    "governs": "which of wear and contact fatigue ends the life first, with the lives of all",
+    "life": (
+        "life in words; on a wrap that of chain or sprocket, whichever ends first; > if neither has ended"
+    ),
+    "governs": "which of wear and contact fatigue ends the life first, with the life of each",
     "in service": "life in the measures of the machine in service",
     "case": "name of the case file without .toml; of a whole drive that of the sprocket",
     "cycles": "loading cycles of one gap or tooth in this life; empty where no limit was met",
@@ -50,9 +52,9 @@ _MEANINGS = {
     **{
         f"{name}{end}": f"{text}{note}"
         for name, text in {
-            "km": "way that the machine covers in this life, km",
+            "km": "distance that the machine covers in this life, km",
             "tonnes": "mass that the machine moves in this life, t",
-            "days": "days of service that this life takes",
+            "days": "days of service in this life",
             "date": "day on which this life ends",
         }.items()
         for end, note in (("", ""), (_AT_LEAST, ": at least this, no limit was met"))
@@ -163,7 +165,7 @@ def _write_limits(page: WorksheetPage, row: int, results: Sequence[WearResult]) 
     _write_section(
         page,
         row,
-        "limits, and what has come of them when the life or the run ends",
+        "limits, with values and margins at the end of the life or the run",
         _FIRST_VALUE + len(results),
     )
     states = [{state.name: state for state in result.limits} for result in results]
@@ -173,7 +175,7 @@ def _write_limits(page: WorksheetPage, row: int, results: Sequence[WearResult]) 
         values = [state.value if state else None for state in chosen]
         margins = [state.left if state else None for state in chosen]
         words, unit = limit_name(name)[0], _unit(name)
-        come, left = f"{words}: what it has come to", f"{words}: what is left to the limit"
+        come, left = f"{words}: value at the end", f"{words}: margin to the limit"
         _write_row(page, row + 1, name, unit, limits, f"limit: {_meaning(name)}")
         _write_row(page, row + 2, f"{name}, value", unit, values, come)
         _write_row(page, row + 3, f"{name}, margin", unit, margins, left)
@@ -183,9 +185,7 @@ def _write_limits(page: WorksheetPage, row: int, results: Sequence[WearResult]) 
                 limit_state(state, result.inputs) if state else None
                 for state, result in zip(chosen, results, strict=True)
             ]
-            _write_row(
-                page, row + 1, f"{name}, in words", "", note, "how sure it is that the chain does not jump"
-            )
+            _write_row(page, row + 1, f"{name}, in words", "", note, "margin against jumping")
             row += 1
     return row + 1
 
@@ -207,7 +207,7 @@ def _write_ratings(page: WorksheetPage, row: int, results: Sequence[WearResult])
         side = "least" if first.at_least else "most"
         _write_row(page, row + 1, name, first.unit, values, f"{name} by {'; '.join(rules)}")
         judged = [_verdict(finding, result) for finding, result in zip(chosen, results, strict=True)]
-        allowed, left = (f"{name}: the {side} that the rule allows", f"{name}: what is left, below 0 outside")
+        allowed, left = (f"{name}: the {side} that the rule allows", f"{name}: margin, below 0 outside")
         _write_row(page, row + 2, f"{name}, allowed", first.unit, limits, allowed)
         _write_row(page, row + 3, f"{name}, margin", first.unit, margins, left)
         _write_row(page, row + 4, f"{name}, verdict", "", judged, f"{name}: {_VERDICT}")
@@ -215,7 +215,7 @@ def _write_ratings(page: WorksheetPage, row: int, results: Sequence[WearResult])
     return row + 1
 
 
-_VERDICT = "whether the rule is met; one that informs does not judge this drive"
+_VERDICT = "whether the rule is met; a rule for information does not judge this drive"
 
 
 def _verdict(finding: RatingFinding | None, result: WearResult) -> str | None:

@@ -86,7 +86,7 @@ def _conditions(case: Case, log: RelubricationLog) -> str:
             "the coefficients of lubricated contacts are constant over the whole life, the load stays as it "
             "was, and contacts are relubricated as [lubrication] says, from a new part on"
         )
-    return "the coefficients are constant over the whole life, load and lubrication stay as they were"
+    return "the coefficients are constant over the whole life, load and lubrication do not change"
 
 
 def fit_warnings(

@@ -27,7 +27,7 @@ def calibration_text(found: Calibration, explain: bool = False) -> str:
             ),
             Finding(
                 "Life",
-                f"{_hours(part.life)} of the {part.name} in all   "
+                f"{_hours(part.life)} of the {part.name} in total   "
                 f"({share}: {_ends(part.interval, grouped)} h)",
             ),
         ]

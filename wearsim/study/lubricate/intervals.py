@@ -76,7 +76,7 @@ class StateEnds(NamedTuple):
 class RelubricationPolicy:
     """What an interval between relubrications leads to."""
 
-    interval: float  # [h]; infinite where the lubricant is supplied all the time
+    interval: float  # [h]; infinite where the lubricant is supplied continuously
     lives: Mapping[str, float]  # of the parts when new at the begin [h]
     lives_low: Mapping[str, float]  # at the lower end of the band
     lives_high: Mapping[str, float]  # at the upper end
@@ -186,7 +186,7 @@ class LubricationIntervals:
         return max(whole - clock.steady_cycles(one) - clock.steady_cycles(until - one) for one in at)
 
     def supplied(self, cost_per_hour: float | None) -> RelubricationPolicy:
-        """Return what a lubricant leads to that is supplied all the time at a cost, None where unknown."""
+        """Return what a lubricant leads to that is supplied continuously at a cost, None where unknown."""
         found = self.policy(_NEVER)
         parts = (found.cost, found.cost_low, found.cost_high)
         cost, low, high = (

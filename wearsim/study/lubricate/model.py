@@ -43,7 +43,7 @@ RENEWED = (
 """What they rest on where chains are renewed."""
 
 SUPPLIED = (
-    "a lubricant that is supplied all the time does not age; that its supply may fail is not in the costs"
+    "a lubricant that is supplied continuously does not age; that its supply may fail is not in the costs"
 )
 """What they rest on where there is such a lubricant."""
 
@@ -54,7 +54,7 @@ _TOLD = 0.005
 
 @dataclass(frozen=True)
 class LubricantPlan:
-    """One lubricant at all intervals, or supplied all the time."""
+    """One lubricant at all intervals, or supplied continuously."""
 
     name: str  # of the lubricant, empty where the case names none
     supplied: bool  # all the time: the one policy has no interval then
@@ -173,7 +173,7 @@ def _state(clock: LubricantClock, given: LubricationInput, per_hour: float) -> L
 
 
 def _supplied_plan(given: LubricationInput, intervals: LubricationIntervals) -> LubricantPlan:
-    """Return the plan of a lubricant that is supplied all the time, with no price at that of the parts."""
+    """Return the plan of a lubricant that is supplied continuously, with no price at that of the parts."""
     policy, unknown, without_oil = intervals.supplied(given.supply_cost), intervals.unknown, None
     if not unknown and given.supply_cost is None:
         unknown = "without its oil: give consumption_ml_per_hour and price_per_litre"

@@ -33,7 +33,7 @@ _OF_A_LUBRICANT = (
 """Keys that do not hold for another lubricant."""
 
 _OF_APPLICATIONS = (*SCHEDULES, *APPLICATION)
-"""Keys that do not hold for a lubricant that is supplied all the time."""
+"""Keys that do not hold for a lubricant that is supplied continuously."""
 
 _SCHEDULED = (*SCHEDULES, "lasts_hours")
 """Keys in which a case lacks something that suits its schedule."""
@@ -87,7 +87,7 @@ def _of_option(fault: Fault, place: str, option: Mapping[str, Any]) -> Fault:
     name = fault.key.removeprefix("lubrication.")
     if name in option or name not in _SCHEDULED:
         return replace(fault, key=f"{place}.{name}", line=0)
-    text = "must be one that is applied now and then, or supplied all the time: remove this option"
+    text = "must be one that is applied now and then, or supplied continuously: remove this option"
     return Fault(text, f"{place}.lubricant", fault.file)
 
 

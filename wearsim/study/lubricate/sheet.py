@@ -138,7 +138,7 @@ def _plan_parts(study: LubricationStudy, plan: LubricantPlan) -> Iterator[object
 
 def _effect(study: LubricationStudy, plan: LubricantPlan) -> str:
     if plan.supplied:
-        return f"{plan.name}: supplied all the time"
+        return f"{plan.name}: supplied continuously"
     way = f" ({grouped(plan.lasts * study.km_per_hour)} km)" if study.km_per_hour else ""
     fades = f" and fades over {grouped(plan.fades)} h" if plan.fades > 0.0 else ""
     return (

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     type=click.Choice(("case", "chain")),
     default="case",
     show_default=True,
-    help="With READINGS: teeth wear as the case says, or as much faster or slower than that as the chain.",
+    help="With READINGS: teeth wear as in the case, or faster or slower by the same factor as the chain.",
 )
 @click.option(
     "--reading-error-percent",

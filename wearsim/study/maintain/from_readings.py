@@ -198,10 +198,10 @@ def _not_known(parts: tuple[PartNow, ...], until: float) -> Iterator[str]:
         if not one.worn_out and one.left < until:
             yield (
                 f"{one.name} did not wear out in its run of {one.life:.4g} h, of which {one.left:.4g} h are "
-                "left: whether it lasts for the year is not known, a longer run.horizon_hours may tell"
+                "left: whether it lasts for the year is not known, a longer run.horizon_hours may show"
             )
         if one.used < 0.0:
-            yield f"{one.name} is new only {-one.used:.4g} h after the last row of the log"
+            yield f"{one.name} is fitted only {-one.used:.4g} h after the last row of the log"
 
 
 def _conventions(plan: YearPlan) -> Iterator[str]:
@@ -216,8 +216,8 @@ def _conventions(plan: YearPlan) -> Iterator[str]:
     if any(job.job == REPLACE for job in plan.jobs):
         yield (
             "replacement parts last as long as the present ones; a stop costs the same whatever is replaced "
-            "in it; a part goes before its end where its unused life is worth at most a stop"
+            "in it; a part is replaced early if its unused life costs no more than a stop"
             + ("" if plan.prices else " (without prices: where it makes the fewest stops)")
         )
     if any(row.job == KEEP for row in plan.rows):
-        yield "kept parts are shown with the day on which they are worn out"
+        yield "parts that stay are shown with the day on which they are worn out"

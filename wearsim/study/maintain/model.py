@@ -23,11 +23,11 @@ POLICIES = (1.0, 1.5, 2.0, 3.0)
 
 CONVENTIONS = (
     "a new sprocket gets a new chain: the last chain goes with its sprocket, however little it is worn",
-    "a stop for every chain, the last one's together with the sprocket's, and one for turning",
+    "one stop per chain, the last one shared with the sprocket, and one for turning",
 )
 TURN_CONVENTION = (
-    "a sprocket is turned when its first flank is worn, the chain in use stays on; both flanks share the "
-    "wear of the seat; the depth limit then counts on the half of the gap that works"
+    "a sprocket is turned when its first flank is worn, with the chain in use; both flanks share the wear "
+    "of the seat; the depth limit then applies to the working half of the gap"
 )
 
 
@@ -118,7 +118,7 @@ def maintain(case: Case, progress: Progress = lambda done, of: None) -> Maintena
     and the chain at the end of the first.
     """
     drive = wrap_drive(case, "'maintain' needs a chain that wraps the sprocket")
-    check_steady_lubricant(case, "maintain", "see what relubrication does with wearsim lubricate")
+    check_steady_lubricant(case, "maintain", "use wearsim lubricate to study relubrication")
     check_no_running_in(case, "maintain")
     table = maintenance_of(case.inputs)
     limit: float = case.inputs["stop"]["elongation_percent"]

@@ -136,12 +136,12 @@ def _notes(plan: MaintenancePlan) -> list[str]:
     texts = list(plan.conventions)
     if plan.counts:
         texts.append(
-            "classes: of teeth that never share a roller, gcd of teeth and links; 1 is a hunting drive, "
-            "all teeth and rollers wear alike"
+            "classes: sets of teeth that never share a roller, gcd of teeth and links; with 1, a hunting "
+            "drive, all teeth and rollers wear alike"
         )
     if any(not count.run for count in plan.counts):
         texts.append(
-            "- among teeth and links: a life that was not calculated; those of the case's own numbers and "
-            "of one tooth or two links more are"
+            "- in the table of teeth and links: life not calculated; it is calculated for the numbers of "
+            "the case and for one tooth or two links more"
         )
     return texts

@@ -23,7 +23,7 @@ _WORDS = {
     "remaining_hours_of_all": ("All chains", "{} h left together"),
     "end_date": ("Until", "{}"),
     "elongation_percent": ("Now", "{} % elongation"),
-    "life_hours": ("Life", "{} h in all"),
+    "life_hours": ("Life", "{} h in total"),
     "coefficient_factor": ("Coefficient", "{} times the case's"),
 }
 

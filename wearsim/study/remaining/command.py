@@ -51,7 +51,7 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
     type=_POSITIVE,
     metavar="MM",
     callback=finite,
-    help="The same of the new sprocket; without it that of the case.",
+    help="Measurement over pins of the new sprocket; by default that of the case.",
 )
 @click.option(
     "--elongation",

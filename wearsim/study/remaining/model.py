@@ -17,7 +17,7 @@ from wearsim.readings.contradictions import JOINTS, TEETH, ambiguous_reading, ba
 from wearsim.result import Life, LowerBound
 from wearsim.runner.scaled_percentiles import check_no_running_in, check_steady_lubricant
 
-_CONSTANT = ("life times coefficient is constant: load and lubrication stay as they were",)
+_CONSTANT = ("life times coefficient is constant: load and lubrication do not change",)
 
 DEPTH, OVER_PINS, ELONGATION = "max_depth_mm", "over_pins_mm", "elongation_percent"
 
@@ -130,7 +130,7 @@ def remaining_life(
     reached = isinstance(history.life, Life)
     if reading.value > greatest * (1.0 + 1e-12):
         what = "the limit is reached" if reached else "the run ends at run.horizon_hours"
-        raise _fault(reading, f"must be at most {greatest:.6g}, where {what}")
+        raise _fault(reading, f"must be at most {greatest:.6g}, its value when {what}")
     model = history.hours_of(reading.value)
     low = history.hours_of(min(reading.value + reading.error, greatest))
     high = history.hours_of(reading.value - reading.error)
@@ -193,8 +193,8 @@ def _where_it_holds(law: JointLaw) -> str:
     """Say where the coefficient of joints holds, and how it gets into the case."""
     if law.is_constant:
         return (
-            "as joint.specific_wear_rate_mm2_per_N of the case, with joint.source beside it, the coefficient "
-            "gives this reading and is not doubted"
+            "given as joint.specific_wear_rate_mm2_per_N in the case, with joint.source, the coefficient "
+            "reproduces this reading without a warning"
         )
     pressure, speed, pitch = law.reference
     return (

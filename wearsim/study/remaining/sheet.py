@@ -30,7 +30,7 @@ def remaining_text(found: RemainingLife, inputs: Mapping[str, Any], explain: boo
         ),
         Finding("Band", f"{band}   (reading: {what}, +- {reading.error:g})"),
         *([Finding("In service", service)] if service else []),
-        Finding("Life", f"{hours(found.life)} of the {found.part} in all"),
+        Finding("Life", f"{hours(found.life)} of the {found.part} in total"),
         Finding(
             "Coefficient",
             f"{found.coefficient:.4g}, {found.factor:.3g} times that of the case, which reaches this "

@@ -148,7 +148,7 @@ def select(
     lubrication : str
         ``drip``, ``oil bath``, ``forced``, ``manual``, ``greased`` or ``dry``.
     environment : str
-        Surroundings of the chain: ``clean``, ``dust``, ``wet``, ``mud`` or ``soil``.
+        Environment of the chain: ``clean``, ``dust``, ``wet``, ``mud`` or ``soil``.
     tooth_hardness : str
         ``hardened`` or ``normalised``: it changes the life of the teeth, not that of the chain.
     shock : str

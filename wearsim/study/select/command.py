@@ -76,7 +76,7 @@ def _requirement_options(function: _Function) -> _Function:
             show_default=True,
             metavar="WORD",
             shell_complete=_offer(("clean", "dust", "wet", "mud", "soil")),
-            help="Surroundings of the chain: clean, dust, wet, mud or soil.",
+            help="Environment of the chain: clean, dust, wet, mud or soil.",
         ),
         click.option(
             "--tooth-hardness",

@@ -73,7 +73,7 @@ def _add(found: dict[str, Price], cells: dict[str, str]) -> list[str]:
     if not name:
         problems.append(f"must name a chain of the catalogue (got {typed!r}){nearest_chain(typed)}")
     elif designation in found:
-        problems.append(f"must price every chain once ({designation} again): remove one of both rows")
+        problems.append(f"must price every chain once ({designation} again): remove one of the two rows")
     numbers = []
     for column in (_LENGTH, _BLANK):
         value = _number(cells.get(column, ""))

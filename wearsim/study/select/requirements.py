@@ -139,7 +139,7 @@ def requirement_faults(given: Mapping[str, Any]) -> list[Fault]:
             )
     if sound.get("centre") is not None:
         faults += [
-            Fault("must be left out where the centre distance is given: remove one of both", name)
+            Fault("must be left out where the centre distance is given: remove one of the two", name)
             for name in ("centre_min", "centre_max")
             if sound.get(name) is not None
         ]
