@@ -120,7 +120,10 @@ def wheel_shapes(case: Case, result: WearResult | None) -> tuple[WheelShape, ...
     """Return the wheels of a case, worn as at the end of a run where there is one."""
     shapes = case.drive.wheels(case.engaged_every, None if result is None else flanks(result, -1))
     if not shapes:
-        message = "the case must have a sprocket or gears to draw, but is a table of loads, which does not place the flank on a wheel: give the case of the wheel"
+        message = (
+            "the case must have a sprocket or gears to draw, but is a table of loads, which does not place "
+            "the flank on a wheel: give the case of the wheel"
+        )
         raise CaseError([Fault(message, "mechanism.kind", case.name)])
     return shapes
 

@@ -158,7 +158,10 @@ def blank_mass(case: Case | DriveCase) -> float:
 def _blank_mass(case: Case) -> float:
     area = case.drive.blank_area()
     if area is None:
-        text = "the mass needs a sprocket whose whole outline is known, which a table of loads and gears do not give: leave mass_kg out of [optimise]"
+        text = (
+            "the mass needs a sprocket whose whole outline is known, which a table of loads and gears do "
+            "not give: leave mass_kg out of [optimise]"
+        )
         raise CaseError([Fault(text, "mass_kg", case.name)])
     width: float = case.inputs["sprocket"]["face_width_mm"]
     return _M3_PER_MM3 * area * width * density(case)
