@@ -83,7 +83,7 @@ def test_two_texts_of_one_cog_stay_two(wheels):
     ("needed", "text"),
     [
         ({"ring": 4.0, "roll": 1e-6}, "jumping: no risk"),
-        ({"ring": 1e-6, "roll": 8.0}, "jumping: 25 % above what is needed on the sprocket 'roll'"),
+        ({"ring": 1e-6, "roll": 8.0}, "jumping: 25 % more than needed on the sprocket 'roll'"),
         ({"ring": 10.0, "roll": 8.0}, "jumping: no margin on the sprocket 'ring'"),
     ],
 )

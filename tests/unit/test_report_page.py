@@ -209,7 +209,7 @@ def test_jumping_reads_as_safe_or_not(goes_on):
     assert found == [
         ("jumping: no risk", "below 0.5", "50", "N"),
         ("jumping: no risk", "10", "50", "N"),
-        ("jumping: 25 % above what is needed", "40", "50", "N"),
+        ("jumping: 25 % more than needed", "40", "50", "N"),
         ("jumping: no margin", "50", "50", "N"),
     ]
     own = {**goes_on.inputs, "stop": {"min_slack_tension_N": 50.0}}

@@ -324,7 +324,7 @@ BAD = [
     ("date", ["2026-02-30,elongation_percent,0.6,,,"], ":2: date: must be a day such as 2026-03-31"),
     ("date", ["500,elongation_percent,0.6,,,"], ":2: date: must be a day such as 2026-03-31"),
     ("distance_km", ["2026-02-03,elongation_percent,0.6,,,"], ":2: distance_km: must be a number of"),
-    ("time_hours,date", ["5,2026-02-03,elongation_percent,0.6,,,"], ":1: must tell the time in one column"),
+    ("time_hours,date", ["5,2026-02-03,elongation_percent,0.6,,,"], ":1: must give the time in one column"),
     ("time", ["500,elongation_percent,0.6,,,"], "column 'time_hours' is missing"),
 ]
 

@@ -131,7 +131,7 @@ def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]
         wrong.insert(0, f"column {HOURS!r} is missing, or {others} in its place")
     faults = [Fault(text, "", str(path), head) for text in wrong]
     if len(times) > 1:
-        text = f"must tell the time in one column, but holds {' and '.join(times)}: keep one"
+        text = f"must give the time in one column, but holds {' and '.join(times)}: keep one"
         faults.append(Fault(text, "", str(path), head))
     rows = [(line, cells) for line, cells in lines[1:] if any(cells)]
     faults += [

@@ -152,7 +152,7 @@ def _as_logged(case: Case | DriveCase, first: Case, log: RelubricationLog) -> Lu
         raise _fault(log, "quantity", text)
     if given.phases:
         text = (
-            f"{RELUBRICATION} takes the place of a schedule, but the case has a programme of its own: "
+            f"{RELUBRICATION} replaces a schedule, but the case has a programme of its own: "
             "remove [[lubrication.phase]], or these rows"
         )
         raise _fault(log, "quantity", text)

@@ -107,13 +107,13 @@ def jumping_margin(needed: float, limit: float) -> str:
     Examples
     --------
     >>> jumping_margin(4e-6, 60.0), jumping_margin(50.0, 56.0), jumping_margin(60.0, 60.0)
-    ('no risk', '12 % above what is needed', 'no margin')
+    ('no risk', '12 % more than needed', 'no margin')
     """
     if needed >= limit * (1.0 - 1e-9):
         return "no margin"
     if _SAFE * needed <= limit:
         return SAFE
-    return f"{grouped(100.0 * (limit / needed - 1.0), 2)} % above what is needed"
+    return f"{grouped(100.0 * (limit / needed - 1.0), 2)} % more than needed"
 
 
 def slack_needed(needed: float, limit: float) -> str:

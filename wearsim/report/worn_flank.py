@@ -121,8 +121,8 @@ def wheel_shapes(case: Case, result: WearResult | None) -> tuple[WheelShape, ...
     shapes = case.drive.wheels(case.engaged_every, None if result is None else flanks(result, -1))
     if not shapes:
         message = (
-            "the case must have a sprocket or gears to draw, but is a table of loads along a flank "
-            "whose place on a wheel it does not tell: give the wheel's own case"
+            "the case must have a sprocket or gears to draw, but is a table of loads, which does not place "
+            "the flank on a wheel: give the case of the wheel"
         )
         raise CaseError([Fault(message, "mechanism.kind", case.name)])
     return shapes

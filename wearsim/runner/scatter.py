@@ -149,7 +149,7 @@ def _given(case: Case) -> dict[str, Distribution]:
 
 def _scatter(case: Case, key: str, distribution: Distribution, given: Any) -> ScatteredKey:
     if key.startswith("run."):
-        text = "keys of [run] tell how a life is calculated and cannot scatter: remove it"
+        text = "keys of [run] say how a life is calculated and cannot scatter: remove it"
         raise CaseError([Fault(text, f'uncertainty."{key}"', case.name)])
     value = case.wear.coefficient if key == coefficient_key(case) else _number(case, key, given)
     return ScatteredKey(key, distribution, value, described(distribution, value))

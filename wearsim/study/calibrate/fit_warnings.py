@@ -158,10 +158,10 @@ def _identifiability(values: Sequence[FittedCoefficient], correlation: Vector) -
         alike = abs(correlation[i, j])
         if alike > _TOGETHER and _loose(one) and _loose(other):
             inseparable |= {one.key, other.key}
-            ways = "of their ratio" if correlation[i, j] > 0.0 else "of their product"
+            ways = "their ratio" if correlation[i, j] > 0.0 else "their product"
             yield (
                 f"the data cannot tell {one.key} and {other.key} apart (correlation "
-                f"{correlation[i, j]:.2f}): they know something like a value {ways} only; "
+                f"{correlation[i, j]:.2f}): they determine little more than {ways}; "
                 "fix one of them, or measure where they act differently"
             )
     # The unit of a coefficient goes with the exponent, and with that its size.

@@ -160,7 +160,7 @@ def _blank_mass(case: Case) -> float:
     if area is None:
         text = (
             "the mass needs a sprocket whose whole outline is known, which a table of loads and gears do "
-            "not tell: leave mass_kg out of [optimise]"
+            "not give: leave mass_kg out of [optimise]"
         )
         raise CaseError([Fault(text, "mass_kg", case.name)])
     width: float = case.inputs["sprocket"]["face_width_mm"]

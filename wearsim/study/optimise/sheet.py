@@ -87,7 +87,7 @@ def optimise_warnings(outcome: OptimiseOutcome) -> tuple[str, ...]:
         values = [one.measures[name] for one in outcome.candidates if one.feasible]
         if len(values) > 1 and max(values) - min(values) <= _SAME * max(values):
             found.append(
-                f"no parameter changes {name}: what governs it lies elsewhere (wearsim life tells what "
+                f"no parameter changes {name}: it is governed by something else (wearsim life says what "
                 "ends the life)"
             )
     if "life_hours" in study.objectives and not all(one.reached for one in outcome.front):
