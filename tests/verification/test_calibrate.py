@@ -59,7 +59,7 @@ def once(monkeypatch):
 
     monkeypatch.setattr(blend, "simulate", simulate)
     nothing, since_new = (
-        RelubricationLog("", "time_hours", 0, (), 0.0, 0.0),
+        RelubricationLog("", "time_hours", 0, (), 0.0),
         ServiceTime("time_hours", 1.0, None, 0.0),
     )
     monkeypatch.setattr(calibrations, "read_readings", lambda rows, case: (rows, nothing, since_new))

@@ -12,7 +12,7 @@ import wearsim
 from wearsim.lubrication.clock import LubricantClock
 from wearsim.lubrication.law import LubricantLaw
 from wearsim.lubrication.schedule import LubricantEvent, LubricantSchedule
-from wearsim.readings.relubrications import RelubricationLog
+from wearsim.readings.relubrications import RelubricationLog, at_one_interval
 
 pytest.importorskip("pandera", reason="pandera is not installed")
 
@@ -177,10 +177,10 @@ def test_one_reading_of_a_lubricant_that_ages_is_refused():
 
 def test_one_that_is_overdue_comes_now_and_counts() -> None:
     """Relubricated at 1 h and not in the 804 h since: two in 805 h, the second one today."""
-    log = RelubricationLog("log.csv", "time_hours", 2, (1.0,), 805.0, 1.0)
+    log = at_one_interval({"": RelubricationLog("log.csv", "time_hours", 2, (1.0,), 805.0)})[""]
     assert (log.mean_interval, log.to_come) == (402.5, 805.0)
-    assert "was 804 h ago, but they came every 1 h before" in next(log.warnings())
-    in_time = RelubricationLog("log.csv", "time_hours", 2, (100.0, 200.0), 300.0, 100.0)
+    assert "in the last 804 h, but they came every 1 h before" in next(log.warnings())
+    in_time = at_one_interval({"": RelubricationLog("log.csv", "time_hours", 2, (100.0, 200.0), 300.0)})[""]
     assert (in_time.mean_interval, in_time.to_come, [*in_time.warnings()]) == (100.0, 300.0, [])
 
 

@@ -74,7 +74,7 @@ class ChainLog:
     def schedule(self) -> dict[str, Any]:
         """Keys of [lubrication] that say the same of the drive; of several chains the interval of all."""
         of_chain = self.relubrications
-        return of_chain.schedule if self.rotation is None else {"interval_hours": of_chain.logged_interval}
+        return of_chain.schedule if self.rotation is None else {"interval_hours": of_chain.mean_interval}
 
     @property
     def today(self) -> float:

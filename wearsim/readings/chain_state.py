@@ -282,6 +282,7 @@ def _warnings(
             "check them, the load and the lubrication; their errors are enlarged by this factor"
         )
     yield from log.time.warnings(log.readings[0].hours)
-    yield from log.relubrications.warnings()
+    of_which = f"chain {log.mounted}: " if log.mounted else ""
+    yield from (of_which + text for text in log.relubrications.warnings())
     if lives[0] <= log.today:
         yield "the limit may already be reached: measure again, with a smaller error"

@@ -66,11 +66,22 @@ def decimal_faults(text: str, lines: Sequence[Line]) -> Iterator[tuple[int, str,
     if not lines or (";" not in text and "\t" not in text):
         return
     names = lines[0][1]
-    given = [cell.strip() for line in text.splitlines() for cell in re.split("[;\t]", line)]
-    commas = any(_COMMA.fullmatch(cell) for cell in given)
-    points = any(_POINT.fullmatch(cell) for cell in given)
+    given = [
+        (line, cell.strip())
+        for line, row in enumerate(text.splitlines(), start=1)
+        if not row.startswith("#")
+        for cell in re.split("[;\t]", row)
+    ]
+    commas, points = ([one for one in given if mark.fullmatch(one[1])] for mark in (_COMMA, _POINT))
     if commas and points:
-        yield lines[0][0], "", "numbers must have decimal points or decimal commas, but this table has both"
+        odd, mark = (commas, "points") if len(commas) < len(points) else (points, "commas")
+        for line, cell in odd:
+            yield (
+                line,
+                "",
+                "numbers must have decimal points or decimal commas, but this table has both: others have "
+                f"{mark} (got {cell!r})",
+            )
     for line, cells in lines[1:]:
         for name, cell in zip(names, cells, strict=False):
             if name in _UNITS and not commas and _THOUSANDS.fullmatch(cell):

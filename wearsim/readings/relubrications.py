@@ -37,7 +37,8 @@ class RelubricationLog:
     today: float  # running time of the last row of the file [h]
     # mean time between relubrications, the first counted from the new part, of chains in rotation that of all
     # of them [h]; 0 where nobody relubricated
-    logged_interval: float
+    logged_interval: float = 0.0
+    mean_interval: float = 0.0  # the same where those that are overdue come today, and count too [h]
 
     @property
     def last(self) -> float:
@@ -48,11 +49,6 @@ class RelubricationLog:
     def is_overdue(self) -> bool:
         """Whether more time has passed since the last one than between them in the mean."""
         return self.today - self.last > self.logged_interval
-
-    @property
-    def mean_interval(self) -> float:
-        """Mean time between relubrications; one that is overdue comes today, and counts too [h]."""
-        return self.today / (len(self.hours) + 1) if self.is_overdue else self.logged_interval
 
     @property
     def to_come(self) -> float:
@@ -71,8 +67,8 @@ class RelubricationLog:
                 grouped(hours) for hours in (self.today - self.last, self.logged_interval, self.mean_interval)
             )
             yield (
-                f"the last relubrication was {since} h ago, but they came every {before} h before: the next "
-                f"is assumed now, then one every {then} h; without relubrication less life is left. Log any "
+                f"no relubrication was logged in the last {since} h, but they came every {before} h before: the "
+                f"next is assumed now, then one every {then} h; without relubrication less life is left. Log any "
                 "that are missing"
             )
 
@@ -112,8 +108,30 @@ def relubrication_log(table: DatedRows, hours: Sequence[float]) -> Relubrication
         line=min(rows)[1] if rows else 0,
         hours=times,
         today=max(hours, default=0.0),
-        logged_interval=times[-1] / len(times) if times else 0.0,
     )
+
+
+def at_one_interval(logs: Mapping[str, RelubricationLog]) -> dict[str, RelubricationLog]:
+    """Return the relubrications of parts that go on alike, at the mean interval of all.
+
+    Examples
+    --------
+    Every 100 h until 200 h, where 50 more have run, and never in 130 h, which is overdue: 330 h for three.
+
+    >>> late = RelubricationLog("log.csv", "time_hours", 0, (), 130.0)
+    >>> logs = {"A": RelubricationLog("log.csv", "time_hours", 2, (100.0, 200.0), 250.0), "B": late}
+    >>> one, other = at_one_interval(logs).values()
+    >>> one.logged_interval, one.mean_interval, one.to_come, other.to_come
+    (100.0, 110.0, 310.0, 130.0)
+    """
+    count = sum(len(log.hours) for log in logs.values())
+    if not count:
+        return dict(logs)
+    logged = sum(log.last for log in logs.values()) / count
+    found = [replace(log, logged_interval=logged) for log in logs.values()]
+    counted = sum(log.today if log.is_overdue else log.last for log in found)
+    mean = counted / (count + sum(log.is_overdue for log in found))
+    return {name: replace(log, mean_interval=mean) for name, log in zip(logs, found, strict=True)}
 
 
 def is_relubrication(cells: Mapping[str, str]) -> bool:
@@ -165,7 +183,7 @@ def _as_logged(case: Case | DriveCase, first: Case, log: RelubricationLog) -> Lu
         faults = []
         for fault in error.faults:
             what = "" if fault.key == _AT else f"{fault.key}: "
-            text = f"{RELUBRICATION} sets {_AT}: {what}{fault.message}"
+            text = f"{RELUBRICATION} sets {_AT}: {what}{fault.message}: give it, or take these rows out"
             faults.append(Fault(text, "quantity", log.file, log.line))
         raise CaseError(faults) from None
     found = changed.chain_case.lubrication

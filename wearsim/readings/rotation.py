@@ -5,7 +5,12 @@ from dataclasses import dataclass, replace
 
 from wearsim.errors import Fault
 from wearsim.readings.dated_rows import CHAINS, NEW, DatedRows, ServiceTime
-from wearsim.readings.relubrications import RelubricationLog, is_relubrication, relubrication_log
+from wearsim.readings.relubrications import (
+    RelubricationLog,
+    at_one_interval,
+    is_relubrication,
+    relubrication_log,
+)
 
 MOUNTED = "mounted"
 """Row from which its chain runs again."""
@@ -85,6 +90,4 @@ def relubrications_of_chains(
         rows = [(row, hours) for row, (chain, hours) in zip(table.rows, own, strict=True) if chain == name]
         its = replace(table, rows=tuple(row for row, _ in rows))
         logs[name] = replace(relubrication_log(its, [hours for _, hours in rows]), today=today)
-    count = sum(len(log.hours) for log in logs.values())
-    interval = sum(log.last for log in logs.values()) / max(count, 1)
-    return {name: replace(log, logged_interval=interval) for name, log in logs.items()}
+    return at_one_interval(logs)

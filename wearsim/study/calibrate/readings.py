@@ -22,6 +22,7 @@ from wearsim.readings.kept_tables import HOURS, number
 from wearsim.readings.relubrications import (
     EVENTS,
     RelubricationLog,
+    at_one_interval,
     event_faults,
     late_new_faults,
     relubrication_log,
@@ -86,11 +87,8 @@ def read_readings(path: Path, case: Case) -> tuple[tuple[Reading, ...], Relubric
     readings = tuple(
         _counted(one, cells, whole, case) for one, (_, cells) in zip(found, rows.rows, strict=True)
     )
-    return (
-        readings,
-        relubrication_log(whole, [time.hours(cells[whole.time]) for _, cells in whole.rows]),
-        time,
-    )
+    log = relubrication_log(whole, [time.hours(cells[whole.time]) for _, cells in whole.rows])
+    return readings, at_one_interval({"": log})[""], time
 
 
 def _counted(reading: Reading, cells: Mapping[str, str], table: DatedRows, case: Case) -> Reading:

@@ -212,7 +212,8 @@ def _conventions(plan: YearPlan) -> Iterator[str]:
         yield f"the {len(rotation.hours)} chains in rotation are replaced together, when all are worn out"
     alike = [one.name for one in plan.parts if one.name != CHAIN and one.name not in new]
     if alike:
-        yield f"{', '.join(alike)}: new with this chain, without a row 'new' of their own"
+        which = "this chain" if rotation is None else "the first chain"
+        yield f"{', '.join(alike)}: new with {which}, as no row 'new' says otherwise"
     if any(job.job == REPLACE for job in plan.jobs):
         yield (
             "replacement parts last as long as the present ones; a stop costs the same whatever is replaced "

@@ -56,9 +56,10 @@ def _now(plan: YearPlan) -> str:
 
 def _total(plan: YearPlan) -> str:
     if plan.total is None:
-        return (
-            "not known without maintenance.chain_price and a price of every sprocket (and of relubrications)"
-        )
+        if plan.prices is None:
+            return "not known without maintenance.chain_price and a price of every sprocket"
+        known = sum(job.cost or 0.0 for job in plan.jobs)
+        return f"{money(plan, known)}, and relubrications: lubrication.price_per_application is not known"
     return money(plan, plan.total)
 
 
