@@ -67,9 +67,9 @@ class RelubricationLog:
                 grouped(hours) for hours in (self.today - self.last, self.logged_interval, self.mean_interval)
             )
             yield (
-                f"no relubrication was logged in the last {since} h, but they came every {before} h before: the "
-                f"next is assumed now, then one every {then} h; without relubrication less life is left. Log any "
-                "that are missing"
+                f"no relubrication was logged in the last {since} h, but they came every {before} h before: "
+                f"the next is assumed now, then one every {then} h; without relubrication less life is left. "
+                "Log any that are missing"
             )
 
 
