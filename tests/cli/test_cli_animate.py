@@ -183,7 +183,7 @@ def test_case_is_worn_first_and_stdout_takes_the_file(cli, drive, monkeypatch):
     cli("animate", path, "--out", "-", *options)
     with Image.open(stream.buffer) as file:
         assert file.n_frames == 2
-        assert "$x_{ &lt;b&gt; Зуб, with load.speed_rpm = 50: the flank" in file.info["xmp"].decode()
+        assert "$x_{ &lt;b&gt; Зуб, with load.speed_rpm = 50: wear of the flank" in file.info["xmp"].decode()
 
 
 @pytest.mark.parametrize(

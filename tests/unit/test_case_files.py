@@ -121,8 +121,8 @@ def test_too_little(faults, content):
 
 
 def test_thousands_of_bad_rows_stay_quick_and_short(faults):
-    rows = [f"{s};100;-0.01;0.5" for s in range(5000)]
-    messages = faults(PRESCRIBED, table(*rows, head=HEAD.replace(",", ";")))
+    rows = [f"{s},x,-0.01,0.5" for s in range(5000)]
+    messages = faults(PRESCRIBED, table(*rows))
     assert len(messages) == 21
     assert messages[-1].startswith("and ")
 

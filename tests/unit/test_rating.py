@@ -149,7 +149,7 @@ def test_every_rule_is_judged_by_its_own_worst_block():
     assert not together["roller impact"].ok
     assert together["roller impact"].load == "780 N at 5000 rpm"
     warned = rating_warnings(ratings(wearsim.load_case({**ONE_19, "duty": both})))
-    assert any("roller impact of 780 N at 5000 rpm" in text for text in warned)
+    assert any("with 780 N at 5000 rpm, allowed" in text for text in warned)
 
 
 def test_a_rule_without_a_row_is_named():

@@ -28,7 +28,7 @@ CASE: dict[str, Any] = {
 
 
 def test_depth_beyond_the_neck_is_refused() -> None:
-    with pytest.raises(wearsim.CaseError, match=r"critical_depth_mm.*neck, 6\.2"):
+    with pytest.raises(wearsim.CaseError, match=r"critical_depth_mm.*at its thinnest, 6\.2"):
         wearsim.load_case(CASE, ["stop.critical_depth_mm=6.3"])
     case = wearsim.load_case(CASE, ["stop.critical_depth_mm=4"])
     assert any("tooth may break first" in text for text in case.warnings)
@@ -45,7 +45,7 @@ def test_turned_points_are_turned_back(tmp_path: Path, degrees: float) -> None:
         sprocket = {"teeth": 20, "profile": "points", "points_file": str(file), "evolute_offset_mm": 5.5}
         case = wearsim.load_case(CASE | {"sprocket": sprocket})
         lives.append(wearsim.simulate(case).life.cycles)
-        assert any("turned by" in text for text in case.warnings) == (name == "turned")
+        assert any("rotated by" in text for text in case.warnings) == (name == "turned")
     assert lives[1] == pytest.approx(lives[0], rel=1e-6)
 
 

@@ -68,10 +68,10 @@ def test_the_cliff_lies_in_the_band_and_is_told() -> None:
     near = wearsim.simulate(wearsim.load_case(OILED_BY_HAND))
     beyond = life({"lubrication.interval_hours": 92})
     assert near.life_low.hours < beyond < 0.5 * near.life.hours
-    [told] = [text for text in near.warnings if "hangs on how long the lubricant lasts" in text]
-    assert "lasts, 83.33 h: with 55.56 h, " in told
+    [told] = [text for text in near.warnings if "depends strongly on how long the lubricant lasts" in text]
+    assert "lasts, 83.33 h: with 55.56 h, within its band, " in told
     safe = wearsim.simulate(wearsim.load_case(changed(OILED_BY_HAND, {"lubrication.interval_hours": 50})))
-    assert not any("hangs on" in text for text in safe.warnings)
+    assert not any("depends strongly on" in text for text in safe.warnings)
 
 
 @pytest.mark.parametrize("key", ["lasts_band_factor", "dry_band_factor", "contamination_band_factor"])
@@ -94,7 +94,7 @@ def test_a_known_lubricant_has_a_narrower_band(key: str) -> None:
     ],
 )
 def test_a_band_of_what_there_is_not_is_refused(table: dict[str, Any], key: str) -> None:
-    with pytest.raises(wearsim.CaseError, match=rf"lubrication\.{key}: belongs to "):
+    with pytest.raises(wearsim.CaseError, match=rf"lubrication\.{key}: needs "):
         wearsim.load_case({**OILED_BY_HAND, "lubrication": table})
 
 
@@ -160,7 +160,7 @@ def test_hardness_and_lubricant_give_the_condition() -> None:
         ),
         (
             {"wear": {"tooth_hardness": "hardened", "specific_wear_rate_mm2_per_N": 1e-9}},
-            "tooth_hardness: specific_wear_rate_mm2_per_N says how fast",
+            "tooth_hardness: specific_wear_rate_mm2_per_N already sets how fast",
         ),
     ],
 )
@@ -230,7 +230,7 @@ def test_contacts_that_run_dry_are_told() -> None:
     """The oil lasts 83.3 h of 120: (83.3 + 36.7 x 39)/120 = 12.6 times the wear in the mean."""
     dry = wearsim.simulate(wearsim.load_case(changed(OILED_BY_HAND, {"lubrication.interval_hours": 120})))
     [told] = [text for text in dry.warnings if "is renewed every" in text]
-    assert "lasts 83.33 h and is renewed every 120 h: contacts wear 12.6 times as fast" in told
+    assert "lasts 83.33 h and is renewed every 120 h: contacts wear on average 12.6 times as fast" in told
     near = wearsim.simulate(wearsim.load_case(OILED_BY_HAND))
     assert not any("is renewed every" in text for text in near.warnings)
 

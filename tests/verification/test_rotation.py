@@ -124,6 +124,6 @@ def test_the_answer_lists_the_chains():
     oiled = [dict(zip(HEAD.strip().split(","), row.split(","), strict=True)) for row in EACH_OILED]
     again = wearsim.remaining(OILED, readings=oiled)
     assert again.summary()["relubrications"] == 4
-    assert "4 times, every 150 h in the mean" in " ".join(again.text.split())
+    assert "4 times, every 150 h on average" in " ".join(again.text.split())
     assert "of chain B, which is on the drive, after 150 h" in text
     assert "Chain A 0.6 % longer after 500 h, 2 000 h left" in text

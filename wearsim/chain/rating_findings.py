@@ -346,7 +346,7 @@ def overload_fault(findings: Sequence[RatingFinding]) -> str:
 
     Examples
     --------
-    >>> overload_fault([RatingFinding("plate fatigue", 30.0, 24.0, "kW", "ANSI B29.1, H1")])[:77]
+    >>> overload_fault([RatingFinding("plate fatigue", 30.0, 24.0, "kW", "ANSI B29.1, H1")])[:81]
     'the load must stay within its ratings: plate fatigue 30 kW, allowed at most 24 kW'
     """
     outside = overloading(findings)

@@ -69,7 +69,7 @@ _HANGS_ON = 0.5
 def lasting_warning(
     case: Case, clock: LubricatedClock, part: str, life: Life | LowerBound, is_given: bool
 ) -> list[str]:
-    """Return a warning where a life hangs on how long the lubricant lasts, which nobody knows to the hour.
+    """Return a warning where a life depends strongly on how long the lubricant lasts, which nobody knows well.
 
     Only where its band holds that, which one does not that the user gives.
     """

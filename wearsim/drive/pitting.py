@@ -23,8 +23,9 @@ def fatigue_parts(
     rate = case.cycles_per_hour
     endured = case.drive.fatigue_lives(case, fatigue, stresses)
     warnings = hardness_warnings(fatigue.materials)
+    first = min((found.hours for found in endured.values()), default=0.0)
     for name, found in endured.items():
-        warnings += _early(name, found, life, sprocket)
+        warnings += _early(name, found, found.hours == first < life.hours_run, sprocket)
     lives = {
         f"{name}_fatigue": life_of(found.hours * rate, rate, not found.bound)
         for name, found in endured.items()
@@ -32,12 +33,12 @@ def fatigue_parts(
     return lives, warnings
 
 
-def _early(name: str, found: EnduredHours, life: Life | LowerBound, sprocket: Life | LowerBound) -> list[str]:
+def _early(name: str, found: EnduredHours, governs: bool, sprocket: Life | LowerBound) -> list[str]:
     if found.hours == 0.0:
         return [f"contact fatigue: the stress on the new flank is too high for the {name} from the start"]
     if found.bound or found.hours >= sprocket.hours_run:
         return []
     after = f"after {found.hours:.3g} h"
-    if found.hours < life.hours_run:
+    if governs:
         return [f"contact fatigue of the {name} ends the life before wear, {after}: it governs"]
     return [f"contact fatigue of the {name} ends its life before wear, {after}"]
