@@ -69,7 +69,7 @@ _HANGS_ON = 0.5
 def lasting_warning(
     case: Case, clock: LubricatedClock, part: str, life: Life | LowerBound, is_given: bool
 ) -> list[str]:
-    """Return a warning where a life depends strongly on how long the lubricant lasts, which nobody knows well.
+    """Return a warning where a life depends strongly on how long the lubricant lasts, which nobody knows.
 
     Only where its band holds that, which one does not that the user gives.
     """
