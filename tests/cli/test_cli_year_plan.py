@@ -155,6 +155,9 @@ def test_relubrications_of_chains_in_rotation_are_jobs(plan):
     oiled = ("--set", "lubrication={lasts_hours = 5000, dry_factor = 2, price_per_application = 4}")
     jobs = [job for job in plan(*oiled, log=log)["jobs"] if job["job"] == "relubricate"]
     assert [job["date"] for job in jobs[:2]] == ["2027-01-01", "2027-04-11"]
+    unpriced = ("--set", oiled[1].replace(", price_per_application = 4", ""))
+    text = " ".join(plan(*unpriced, log=log, as_json=False).out.split())
+    assert ", and relubrications: lubrication.price_per_application is not known" in text
 
 
 def test_chains_in_rotation_are_replaced_together(plan):

@@ -81,6 +81,23 @@ def test_a_relubrication_is_of_its_chain_or_of_the_one_on_the_drive(state):
     assert found.chains["B"].left[2] == pytest.approx(2250.0 - 300.0, rel=1e-4)
 
 
+def test_a_chain_beyond_its_limit_is_told_as_that(state):
+    """B has 3.6 % of 3 %, by a reading good to 1e-6 %."""
+    found = state(*LOG[:3], LOG[4], "1650,elongation_percent,3.6,,,1e-6,B")
+    assert any(
+        text.startswith("chain B: the limit is reached, by all that was read") for text in found.warnings
+    )
+
+
+def test_calibrate_says_that_it_takes_one_part():
+    pytest.importorskip("pandera", reason="pandera is not installed")
+    rows = [dict(zip(HEAD.strip().split(","), row.split(","), strict=True)) for row in LOG]
+    with pytest.raises(
+        wearsim.CaseError, match=r":2: chain: must be empty, as .*wearsim maintain take several"
+    ):
+        wearsim.calibrate(CASE, rows)
+
+
 def test_a_chain_that_shrinks_is_named_but_not_one_beside_another(state):
     """B with 0.1 % after A with 0.6 % is another chain; A with 0.1 % is not."""
     longer = ["1700,elongation_percent,0.24,,,0.05,B", "1800,mounted,,,,,A"]

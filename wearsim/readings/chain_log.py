@@ -19,7 +19,15 @@ from wearsim.readings.chain_readings import (
     odd_error,
     side_of_mark,
 )
-from wearsim.readings.dated_rows import CHAINS, NEW, DatedRows, ServiceTime, read_dated_rows, service_time
+from wearsim.readings.dated_rows import (
+    CHAINS,
+    NEW,
+    SPROCKETS,
+    DatedRows,
+    ServiceTime,
+    read_dated_rows,
+    service_time,
+)
 from wearsim.readings.kept_tables import DATE, number
 from wearsim.readings.relubrications import EVENTS, RelubricationLog, event_faults, late_new_faults
 from wearsim.readings.rotation import (
@@ -31,9 +39,6 @@ from wearsim.readings.rotation import (
     relubrications_of_chains,
     rotation_faults,
 )
-
-_SPROCKET = "sprocket"
-"""Column that names the sprocket of a row, empty where it is of the chain."""
 
 _OF_TEETH = ("max_depth_mm", "depth_mm", "over_pins_mm", "profile")
 
@@ -111,9 +116,9 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
     CaseError
         What is wrong with the table, every cell of it in one pass.
     """
-    whole = read_dated_rows(path, ("quantity",), ("value", "error", "links", "result", _SPROCKET, CHAINS))
-    of_sprockets = [row for row in whole.rows if row[1].get(_SPROCKET)]
-    table = replace(whole, rows=tuple(row for row in whole.rows if not row[1].get(_SPROCKET)))
+    whole = read_dated_rows(path, ("quantity",), ("value", "error", "links", "result", SPROCKETS, CHAINS))
+    of_sprockets = [row for row in whole.rows if row[1].get(SPROCKETS)]
+    table = replace(whole, rows=tuple(row for row in whole.rows if not row[1].get(SPROCKETS)))
     time = service_time(table, inputs)
     in_turn = has_rotation(table)
     faults = [*_bad_cells(table, time, in_turn), *_backwards(table, time)]
@@ -139,7 +144,7 @@ def read_chain_log(path: Path, inputs: Mapping[str, Any], pitch: float, usual_er
         new=next((one for one in new.values() if one.measured), next(iter(new.values()))),
         readings=readings,
         lubricated=relubrications_of_chains(table, own, rotation.hours if rotation else {"": own[-1][1]}),
-        sprockets={cells[_SPROCKET]: time.hours(cells[table.time]) for _, cells in of_sprockets},
+        sprockets={cells[SPROCKETS]: time.hours(cells[table.time]) for _, cells in of_sprockets},
         rotation=rotation,
     )
     _check_times(log)

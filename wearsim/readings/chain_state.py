@@ -284,5 +284,7 @@ def _warnings(
     yield from log.time.warnings(log.readings[0].hours)
     of_which = f"chain {log.mounted}: " if log.mounted else ""
     yield from (of_which + text for text in log.relubrications.warnings())
-    if lives[0] <= log.today:
-        yield "the limit may already be reached: measure again, with a smaller error"
+    if lives[-1] <= log.today:
+        yield f"{of_which}the limit is reached, by all that was read: replace the chain"
+    elif lives[0] <= log.today:
+        yield f"{of_which}the limit may already be reached: measure again, with a smaller error"

@@ -38,8 +38,8 @@ TIMES = (HOURS, KM, DATE)
 NEW = "new"
 """Row of the time at which a part was new."""
 
-CHAINS = "chain"
-"""Column that names the chain of a row, of several in rotation."""
+CHAINS, SPROCKETS = "chain", "sprocket"
+"""Columns that name the chain of a row, of several in rotation, or the sprocket that a row is of."""
 
 _MOST_HOURS = 1e9
 

@@ -1,7 +1,7 @@
 """What was measured in service, checked to the cell."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +17,14 @@ from wearsim.input.csv_tables import read_columns
 from wearsim.input.faults import Faults
 from wearsim.readings.chain_lengths import new_length
 from wearsim.readings.chain_readings import ELONGATION, GAUGE, LENGTH, chain_cells, elongation_over, odd_error
-from wearsim.readings.dated_rows import DatedRows, ServiceTime, read_dated_rows, service_time
+from wearsim.readings.dated_rows import (
+    CHAINS,
+    SPROCKETS,
+    DatedRows,
+    ServiceTime,
+    read_dated_rows,
+    service_time,
+)
 from wearsim.readings.kept_tables import HOURS, number
 from wearsim.readings.relubrications import (
     EVENTS,
@@ -40,6 +47,9 @@ QUANTITIES = (DEEPEST, POINT, OVER_PINS, SIZE, ELONGATION, PROFILE, LENGTH, GAUG
 
 REQUIRED = ("quantity", "error")
 OPTIONAL = ("value", "arc_length_mm", "gap_kind", "points_file", "links", "result")
+_PARTS = (CHAINS, SPROCKETS)
+"""Columns of a log of several parts."""
+
 _LEAST_POINTS = 11
 _LEAST_HOURS, _MAX_HOURS = 1e-6, 1e9
 _LEAST_ERROR, _MAX_VALUE = 1e-9, 1e6
@@ -68,11 +78,16 @@ class Reading:
 
 def read_readings(path: Path, case: Case) -> tuple[tuple[Reading, ...], RelubricationLog, ServiceTime]:
     """Read measurements and relubrications; [service] of the case turns km and days into hours."""
-    whole = read_dated_rows(path, REQUIRED, OPTIONAL)
+    whole = read_dated_rows(path, REQUIRED, (*OPTIONAL, *_PARTS))
     time = service_time(whole, case.inputs)
     rows = replace(whole, rows=tuple(row for row in whole.rows if row[1]["quantity"] not in EVENTS))
     table = _table(rows)
-    faults = [*event_faults(whole, time), *late_new_faults(whole), *_bad_cells(table, _common(time), path)]
+    faults = [
+        *_several_parts(whole),
+        *event_faults(whole, time),
+        *late_new_faults(whole),
+        *_bad_cells(table, _common(time), path),
+    ]
     for quantity, some in table.groupby("quantity"):
         if quantity in QUANTITIES:
             faults += _bad_cells(some, _of_quantity(str(quantity)), path)
@@ -89,6 +104,17 @@ def read_readings(path: Path, case: Case) -> tuple[tuple[Reading, ...], Relubric
     )
     log = relubrication_log(whole, [time.hours(cells[whole.time]) for _, cells in whole.rows])
     return readings, at_one_interval({"": log})[""], time
+
+
+def _several_parts(table: DatedRows) -> Iterator[Fault]:
+    """Give the first row of each part that is named, as a table is of one."""
+    for name in _PARTS:
+        for line, cells in [row for row in table.rows if row[1].get(name)][:1]:
+            text = (
+                f"must be empty, as coefficients are fitted to the log of one part (got {cells[name]!r}): "
+                "wearsim remaining and wearsim maintain take several"
+            )
+            yield Fault(text, name, table.file, line)
 
 
 def _counted(reading: Reading, cells: Mapping[str, str], table: DatedRows, case: Case) -> Reading:
