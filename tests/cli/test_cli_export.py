@@ -242,7 +242,7 @@ def test_note_and_layers(cli, drive, tmp_path):
     layers = {entity.dxf.layer for entity in ezdxf.readfile(out).modelspace()}
     assert layers == {"NEW", "WORN", "PITCH_CIRCLE", "CENTRE", "NOTES"}
     note = " ".join(texts(out))
-    for part in ("Test drive (case drive)", " h: 0.02 mm off", "All in mm", wearsim.__version__):
+    for part in ("Test drive (case drive)", " h: 0.02 mm worn", "All in mm", wearsim.__version__):
         assert part in note
     (circle,) = ezdxf.readfile(out).modelspace().query("CIRCLE")
     assert circle.dxf.radius == pytest.approx(20 * 25.4 / (2 * math.pi), rel=1e-12)
@@ -448,7 +448,7 @@ def test_refusals(cli, drive, gears, tmp_path, monkeypatch):
     assert cli("export", path, "--out", out, "--force").code == 0
     done = cli("export", gears("involute"), "--out", tmp_path / "o.step")
     assert done.code == 2
-    assert "no root" in done.err or "wearsim[step]" in done.err
+    assert "no tooth root" in done.err or "wearsim[step]" in done.err
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     done = cli("export", path, "--out", tmp_path / "o.stp")
     assert done.code == 2

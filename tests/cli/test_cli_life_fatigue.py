@@ -65,7 +65,7 @@ def test_contact_fatigue_governs(life, printed):
     assert governing(found) == ("sprocket_fatigue", fatigue)
     text = one_line(life(*MILD))
     assert (f"Governs contact fatigue of the sprocket, {grouped(fatigue)} h (wear {grouped(wear)} h)") in text
-    assert "contact fatigue of the sprocket comes before the wear" in text
+    assert "contact fatigue of the sprocket ends the life before wear" in text
 
 
 def test_fatigue_that_never_comes(life, printed):

@@ -156,7 +156,7 @@ def test_a_chain_without_slack_has_the_tension_of_its_stretch(checked):
     weight, span = 0.35e-6 * 9806.65 * math.cos(tilt), found["layout"]["spans"][0]["length_mm"]
     stretch = 104 * slack / 30600 - weight**2 * span**3 / (24 * slack**2)
     assert stretch == pytest.approx(short, abs=2e-4)
-    assert any(f"fits without slack, {-short:.2g}" in text for text in found["assumptions"])
+    assert any(f"fits without slack ({-short:.2g}" in text for text in found["assumptions"])
     softer = placed(KART, 202.8).replace("links = 104", "links = 104\nlink_stiffness_N_per_mm = 10000")
     assert json.loads(checked(softer).out)["layout"]["spans"][0]["tension_N"] < 0.6 * slack
 

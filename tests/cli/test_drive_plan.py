@@ -378,7 +378,7 @@ def test_without_prices_no_cost_is_printed(cli, tmp_path, two_sprockets):
 def test_keys_of_one_sprocket_are_refused(cli, drive, setting):
     done = cli("maintain", drive, "--set", f"maintenance.{setting}")
     assert done.code == 2
-    assert f"maintenance.{setting.split('=')[0]}: is for the case of one sprocket" in done.err
+    assert f"maintenance.{setting.split('=')[0]}: applies to cases of one sprocket only" in done.err
 
 
 def test_no_sprocket_is_called_chain(cli, drive):
