@@ -198,8 +198,8 @@ def test_contradiction_is_warned_of_by_name(settings: list[str], words: str) -> 
         (["lubrication.environment=dusty"], "lubrication.environment", "did you mean 'dust'"),
         (["lubrication.interval_hours=-1"], "lubrication.interval_hours", "greater than 0"),
         (["lubrication.lasts_hours=-1"], "lubrication.lasts_hours", "0"),
-        (["lubrication.interval_km=3"], "lubrication.interval_km", "interval_hours says this already"),
-        (["lubrication.lasts_km=3"], "lubrication.lasts_km", "lasts_hours says this already"),
+        (["lubrication.interval_km=3"], "lubrication.interval_km", "interval_hours already gives this"),
+        (["lubrication.lasts_km=3"], "lubrication.lasts_km", "lasts_hours already gives this"),
         (["lubrication.at_hours=[2,1]"], "lubrication.at_hours", "must rise"),
         (["lubrication.when_rate_exceeds=1"], "lubrication.when_rate_exceeds", "greater than 1"),
         (["lubrication.completeness=0"], "lubrication.completeness", "greater than 0"),
@@ -305,7 +305,7 @@ def test_relubrication_after_the_run_is_warned_of(changes: dict[str, Any], expec
             "= 9000",
             "fades from 12 h on",
         ),
-        ({"interval_hours": 9e3, "lasts_hours": 8e3}, "= 9000", "lasts so long"),
+        ({"interval_hours": 9e3, "lasts_hours": 8e3}, "= 9000", "lasts until then"),
     ],
 )
 def test_life_before_the_first_relubrication_is_warned_of(
@@ -331,7 +331,7 @@ def test_run_before_the_first_relubrication_is_warned_of() -> None:
     assert not any("relubricated" in text for text in case.warnings)
     (text,) = (one for one in wearsim.simulate(case).warnings if "never relubricated" in one)
     assert text.startswith("lubrication.interval_sliding_m = 900000 is longer than the run of the flank, 5 h")
-    assert text.endswith("lasts so long")
+    assert text.endswith("lasts until then")
 
 
 def test_relubrication_in_time_is_not_warned_of() -> None:

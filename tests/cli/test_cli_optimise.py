@@ -411,7 +411,7 @@ def test_misspelt_keys_of_a_range_get_no_hint_at_other_tables(cli, case):
         (table('"sprocket.teeth" = [20, 20.0]\n'), "each value may appear once"),
         (table('"sprocket.teeth" = 12\n'), "must be a range {low, high} or a list of values (got 12)"),
         (table('"sprocket.teeth" = {low = 20, high = 2000000000}\n'), "at most 100000 whole numbers"),
-        (table('"load.power_kW" = {low = -1e308, high = 1e308}\n'), "by less than 1.8e308"),
+        (table('"load.power_kW" = {low = -1e308, high = 1e308}\n'), "must differ by less than 1.8e308"),
         (table('"sprocket.displaced" = {low = 0, high = 1}\n'), "give the list [true, false]"),
         (table('"format_version" = [1, 2]\n'), "tells how the file is read"),
         (table('"sprocket.nodes" = [101, 201]\n'), "tells how finely a design is calculated"),
