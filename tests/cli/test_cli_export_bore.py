@@ -310,4 +310,4 @@ def test_surface_of_one_state_and_of_closed_wheels(cli, write, tmp_path):
     )
     done = cli("export", gears, "--out", tmp_path / "o.stl")
     assert done.code == 2
-    assert "no root" in done.err
+    assert "no tooth root" in done.err
