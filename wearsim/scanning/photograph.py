@@ -18,7 +18,7 @@ MOST_PIXELS = 100_000_000
 FEWEST_PIXELS = 200
 """Pixels of the smaller side below which no tooth is measured."""
 
-_FORMATS = ("PNG", "JPEG", "MPO", "TIFF")
+_FORMATS = ("PNG", "JPEG", "TIFF")
 
 Light = NDArray[np.float32]
 Codes = NDArray[np.uint8 | np.uint16]

@@ -108,8 +108,8 @@ def _find_shape(light: Light, name: str) -> _Shape:
 def _dark_side(smooth: Light, name: str) -> Mask:
     """Pixels on the dark side of Otsu's threshold, light that falls off across the picture evened out."""
     dark = smooth < _otsu(smooth)
-    bright, low = (float(np.median(smooth[part])) for part in (~dark, dark))
-    if bright - low < _LEAST_CONTRAST * bright:
+    bright, low = (float(np.median(smooth[part])) if part.any() else 0.0 for part in (~dark, dark))
+    if not dark.any() or bright - low < _LEAST_CONTRAST * bright:
         raise bad_photograph(
             name,
             "the wheel must stand out from what lies behind it, but the picture has no two shades: lay it on "
@@ -150,7 +150,8 @@ def _otsu(values: Light) -> float:
     sums = np.cumsum(counts * middle)
     with np.errstate(invalid="ignore", divide="ignore"):
         between = below * above * ((sums[-1] - sums[:-1]) / above - sums[:-1] / below) ** 2
-    best = np.flatnonzero(between == np.nanmax(between))
+    between = np.nan_to_num(between)
+    best = np.flatnonzero(between == between.max())
     return float(edges[1:][best].mean())
 
 
