@@ -25,6 +25,7 @@ _PUBLIC = {
     "MaintenanceResult": "wearsim.study.maintain.answer",
     "OptimiseResult": "wearsim.study.optimise.answer",
     "RemainingResult": "wearsim.study.remaining.answer",
+    "ScanResult": "wearsim.scanning.answer",
     "SelectionResult": "wearsim.study.select.answer",
     "SweepResult": "wearsim.study.sweep.answer",
     "UncertaintyResult": "wearsim.study.uncertainty.answer",
@@ -43,6 +44,7 @@ _PUBLIC = {
     "optimise": "wearsim.study.optimise.answer",
     "progress_bar": "wearsim.runner.progress",
     "remaining": "wearsim.study.remaining.answer",
+    "scan": "wearsim.scanning.answer",
     "select": "wearsim.study.select.answer",
     "simulate": "wearsim.drive.simulate",
     "simulate_many": "wearsim.drive.simulate",
@@ -68,6 +70,7 @@ if TYPE_CHECKING:
     from wearsim.report.loads_result import LoadsResult, loads
     from wearsim.result import Life, LowerBound, WearResult
     from wearsim.runner.progress import progress_bar
+    from wearsim.scanning.answer import ScanResult, scan
     from wearsim.study.calibrate.answer import CalibrationResult, calibrate
     from wearsim.study.judge.answer import JudgementResult, judge
     from wearsim.study.lubricate.answer import LubricationResult, lubricate
@@ -100,6 +103,7 @@ __all__ = [
     "MaintenanceResult",
     "OptimiseResult",
     "RemainingResult",
+    "ScanResult",
     "SelectionResult",
     "SweepResult",
     "UncertaintyResult",
@@ -119,6 +123,7 @@ __all__ = [
     "optimise",
     "progress_bar",
     "remaining",
+    "scan",
     "select",
     "simulate",
     "simulate_many",

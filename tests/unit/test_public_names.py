@@ -16,10 +16,10 @@ from wearsim.lazy import lazy_names
 NAMES = """
 CalibrationResult Case CaseError ChainReadingsResult CheckResult ContactError ConvergenceError DriveCase
 DriveLife ExportResult GeometryError JudgementResult Life LoadsResult LowerBound LubricationResult
-MaintenanceResult OptimiseResult RemainingResult SelectionResult SweepResult UncertaintyResult WearResult
-WearsimError YearPlanResult
+MaintenanceResult OptimiseResult RemainingResult ScanResult SelectionResult SweepResult UncertaintyResult
+WearResult WearsimError YearPlanResult
 __version__ calibrate check export judge load_case loads lubricant lubricate maintain optimise progress_bar
-remaining select simulate simulate_many sweep uncertainty wear_law
+remaining scan select simulate simulate_many sweep uncertainty wear_law
 """
 """What programs of users may name; one that goes stands in `_FORMER` first: CONTRIBUTING.md says how long."""
 

@@ -19,6 +19,7 @@ from wearsim.cli.report import report
 from wearsim.cli.schema import schema
 from wearsim.cli.ui import ui
 from wearsim.cli.warm import warm
+from wearsim.scanning.command import scan
 from wearsim.study.calibrate.command import calibrate
 from wearsim.study.judge.command import judge
 from wearsim.study.lubricate.command import lubricate
@@ -47,6 +48,7 @@ COMMAND_GROUPS: dict[str, dict[click.Command, str]] = {
     "Maintain": {
         maintain: "wearsim maintain packaging-conveyor",
         lubricate: "wearsim lubricate bicycle-17t-lubricants",
+        scan: "wearsim scan sprocket.jpg --chain 08B --out worn",
         remaining: "wearsim remaining 16b-20t-oiled --hours 900 --depth-mm 0.1",
         calibrate: "wearsim calibrate 16b-20t-oiled 16b-20t-readings",
         judge: "wearsim judge metal-wear",

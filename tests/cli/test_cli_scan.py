@@ -1,0 +1,200 @@
+"""``wearsim scan``: what it prints, its files, and which pictures it refuses."""
+
+import csv
+import json
+import struct
+import zlib
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import wearsim
+from tests.photographs import Camera, new_gap, picture, wheel, with_pocket
+
+
+@pytest.fixture(scope="module")
+def photo(tmp_path_factory):
+    """A photograph of 19 teeth, 0.3 mm deep."""
+    path = tmp_path_factory.mktemp("photo") / "wheel.png"
+    picture(wheel([with_pocket(new_gap(12.7, 8.51, 19), 0.3)] * 19), Camera()).save(path)
+    return path
+
+
+def test_answer_and_files(cli, photo, tmp_path):
+    out = tmp_path / "out"
+    done = cli("scan", photo, "--chain", "08B", "--hours", 4200, "--out", out)
+    assert done.code == 0, done.err
+    text = " ".join(done.out.split())
+    assert text.startswith("wheel.png: iso606 for 08B-1, 19 teeth Teeth 19 counted")
+    assert "Worn flank the one that faces clockwise" in text
+    names = ("teeth.csv", "gap.csv", "points.csv", "readings.csv", "scan.txt", "overlay.png", "overlay.svg")
+    assert {path.name for path in out.iterdir()} >= set(names)
+    with (out / "readings.csv").open() as file:
+        (reading,) = csv.DictReader(file)
+    assert (reading["time_hours"], reading["quantity"]) == ("4200.0", "max_depth_mm")
+    assert float(reading["value"]) == pytest.approx(0.3, abs=0.05)
+    with (out / "teeth.csv").open() as file:
+        assert len(list(csv.DictReader(file))) == 19
+
+
+def test_points_are_a_profile(cli, photo, tmp_path):
+    assert cli("scan", photo, "--chain", "08B", "--out", tmp_path / "out").code == 0
+    case = wearsim.load_case("08b-19t-wrap")
+    tables = {**case.given.tables, "sprocket": {"teeth": 19, "profile": "points", "points_noise_mm": 0.01}}
+    tables["sprocket"]["points_file"] = str(tmp_path / "out" / "points.csv")
+    worn = wearsim.load_case(tables)
+    assert worn.drive.pitch_line_thickness < case.drive.pitch_line_thickness
+
+
+def test_json(cli, photo):
+    done = cli("scan", photo, "--chain", "08B", "--json")
+    found = json.loads(done.out)
+    assert (found["schema_version"], found["teeth"], found["worn_flank"]) == (1, 19, "clockwise")
+    assert abs(found["depth_mm"] - 0.3) < 3.0 * found["depth_se_mm"]
+    assert len(found["teeth_depth_mm"]) == 19
+    answer = wearsim.scan(photo, chain="08B")
+    assert answer.summary() == found
+    assert answer.teeth.shape == (19, 5)
+
+
+@pytest.mark.wide
+def test_hours_left(cli, photo):
+    settings = (
+        "--set",
+        "sprocket.nodes=101",
+        "--set",
+        "mechanism.phases=1",
+        "--set",
+        "run.life_tolerance=0.1",
+    )
+    done = cli("scan", photo, "--case", "08b-19t-wrap", *settings, "--hours", 4200, "--json")
+    assert done.code == 0, done.err
+    found = json.loads(done.out)
+    low, mean, high = (found[f"remaining_hours{end}"] for end in ("_low", "", "_high"))
+    assert low < mean < high
+    read = cli(
+        *("remaining", "08b-19t-wrap", *settings, "--hours", 4200, "--depth-mm", found["depth_mm"]),
+        *("--reading-error-mm", 2.0 * found["depth_se_mm"], "--json"),
+    )
+    assert json.loads(read.out)["remaining_hours"] == mean
+
+
+def test_another_number_of_teeth(cli, photo):
+    done = cli("scan", photo, "--chain", "08B", "--teeth", 20)
+    assert done.code == 2
+    assert "wheel.png: the wheel must have 20 teeth as given, but 19 are counted" in done.err
+    assert cli("scan", photo, "--case", "16b-20t-oiled").code == 2
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        (),
+        ("--chain", "08B", "--case", "16b-20t-oiled"),
+        ("--case", "16b-20t-oiled", "--teeth", "20"),
+        ("--chain", "08B", "--bore-mm", "20", "--dpi", "300"),
+        ("--chain", "08B", "--scale", "1,2,3"),
+        ("--chain", "08B", "--set", "load.speed_rpm=1"),
+        ("--chain", "99X"),
+    ],
+)
+def test_wrong_options(cli, photo, words):
+    assert cli("scan", photo, *words).code == 2
+
+
+def grey(values):
+    """Return a picture of values from 0 to 1."""
+    return Image.fromarray(np.round(255.0 * values).astype(np.uint8))
+
+
+def disc(across, down, radius, size=600):
+    """Return a dark disc on bright ground."""
+    y, x = np.mgrid[:size, :size]
+    return np.where((x - across) ** 2 + (y - down) ** 2 < radius**2, 0.1, 0.9)
+
+
+OUTLINE = wheel([new_gap(12.7, 8.51, 19)] * 19)
+
+REFUSED = {
+    "no two shades": (lambda: grey(np.full((400, 400), 0.5)), "no two shades"),
+    "a disc": (lambda: grey(disc(300, 300, 200)), "no teeth that repeat"),
+    "two wheels": (
+        lambda: Image.fromarray(
+            np.hstack(
+                [np.asarray(picture(OUTLINE, Camera(size=(400, 400), turn=turn))) for turn in (0.0, 0.1)]
+            )
+        ),
+        "two things of its size",
+    ),
+    "seen from the side": (lambda: picture(OUTLINE, Camera(tilt=1.0)), "seen along its axis"),
+    "cut off": (lambda: picture(OUTLINE, Camera(centre=(0.2, 0.5))), "all teeth must be in the picture"),
+    "too small": (lambda: grey(disc(50, 50, 30, 100)), "at least 200 pixels"),
+    "out of focus": (lambda: picture(OUTLINE, Camera(size=(400, 400), blur=3.0)), "a pitch must be at least"),
+    "far away": (lambda: grey(disc(300, 300, 10)), "at least 2 % of the picture"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_refused_pictures(cli, tmp_path, name):
+    drawn, message = REFUSED[name]
+    drawn().save(tmp_path / "bad.png")
+    done = cli("scan", tmp_path / "bad.png", "--chain", "08B", "--json")
+    assert done.code == 2
+    assert message in " ".join(done.err.split()), done.err
+    assert json.loads(done.out)["error"]["kind"] == "CaseError"
+
+
+def test_a_truncated_file(cli, photo, tmp_path):
+    path = tmp_path / "half.png"
+    path.write_bytes(photo.read_bytes()[:20_000])
+    done = cli("scan", path, "--chain", "08B")
+    assert done.code == 2
+    assert "must be a whole picture" in done.err
+
+
+def test_no_picture(cli, tmp_path):
+    (tmp_path / "text.jpg").write_text("no picture")
+    assert "is none of them" in cli("scan", tmp_path / "text.jpg", "--chain", "08B").err
+    assert "cannot be opened" in cli("scan", tmp_path / "none.jpg", "--chain", "08B").err
+
+
+def test_a_bomb_is_refused_by_its_header(cli, tmp_path):
+    """20 000 pixels squared, of which no line is there."""
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    head = struct.pack(">IIBBBBB", 20_000, 20_000, 8, 0, 0, 0, 0)
+    path = tmp_path / "bomb.png"
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", b"") + chunk(b"IEND", b""))
+    done = cli("scan", path, "--chain", "08B")
+    assert done.code == 2
+    assert "at most 100 million pixels" in done.err
+
+
+def test_a_picture_is_turned_as_its_camera_says(photo, tmp_path):
+    """Orientation 6 is stored a quarter turn off; orientation 5 mirrored too."""
+    upright = Image.open(photo)
+    exif = Image.Exif()
+    found = {}
+    for orientation, way in ((6, Image.Transpose.ROTATE_90), (5, Image.Transpose.TRANSPOSE)):
+        exif[0x0112] = orientation
+        path = tmp_path / f"{orientation}.png"
+        upright.transpose(way).save(path, exif=exif)
+        found[orientation] = wearsim.scan(path, chain="08B").summary()["worn_flank"]
+    assert found == {6: "clockwise", 5: "clockwise"}
+
+
+@pytest.mark.parametrize("mode", ["RGB", "RGBA", "P", "I;16", "TIFF"])
+def test_kinds_of_pictures(photo, tmp_path, mode):
+    upright = Image.open(photo)
+    path = tmp_path / "wheel.png"
+    if mode == "I;16":
+        Image.fromarray(257 * np.asarray(upright).astype(np.uint16)).save(path)
+    elif mode == "TIFF":
+        path = tmp_path / "wheel.tif"
+        upright.save(path)
+    else:
+        upright.convert(mode).save(path)
+    assert wearsim.scan(path, chain="08B").depth == pytest.approx(0.3, abs=0.05)

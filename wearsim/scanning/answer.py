@@ -1,0 +1,254 @@
+"""The wear of a sprocket from a photograph of it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from wearsim.case.model import Case
+from wearsim.drive.case_input import CaseInput, loaded
+from wearsim.drive.drive_case import DriveCase
+from wearsim.errors import ABOVE_0, Allowed, CaseError, Fault, Range, check_ranges, check_series
+from wearsim.report.answer_table import csv_of
+from wearsim.report.public_answer import DrawnAnswer
+from wearsim.runner.in_threads import Progress, silent
+from wearsim.scanning.known_scales import LookUp, by_bore, by_dots, by_points
+from wearsim.scanning.model import SURE, ScannedWheel, scan_photograph
+from wearsim.scanning.new_wheel import STANDARDS, NewWheel, wheel_of_case, wheel_of_chain
+from wearsim.scanning.photograph import Photograph, read_photograph
+from wearsim.scanning.sheet import depth_table, points_csv, readings_csv, scan_json, scan_text, tooth_table
+from wearsim.scanning.silhouette import Silhouette, find_silhouette
+from wearsim.study.remaining.model import DEPTH, SingleReading, remaining_life
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+_ALLOWED: dict[str, Allowed] = {
+    "teeth": Range(least=5, most=150, whole=True, optional=True),
+    "profile": (*STANDARDS, None),
+    **dict.fromkeys(("bore", "dpi", "hours"), Range(above=0.0, optional=True)),
+}
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class ScanResult(DrawnAnswer):
+    """The wear of a sprocket in a photograph.
+
+    Attributes
+    ----------
+    found : ScannedWheel
+        Photograph, placed wheel and depths as objects.
+    """
+
+    _tables = ("teeth", "gap")
+
+    found: ScannedWheel
+
+    @property
+    def title(self) -> str:
+        """Which photograph of what."""
+        return f"{self.found.photograph.name}: {self.found.wheel.words}"
+
+    @property
+    def headline(self) -> str:
+        """The depth with its standard error."""
+        depths = self.found.depths
+        return f"{depths.depth:.3f} mm +- {depths.depth_error:.3f} worn off {self.found.wheel.teeth} teeth"
+
+    @property
+    def text(self) -> str:
+        """What ``wearsim scan`` prints."""
+        return scan_text(self.found)
+
+    @property
+    def explained(self) -> str:
+        """The text with every assumption."""
+        return scan_text(self.found, explain=True)
+
+    @property
+    def depth(self) -> float:
+        """Mean depth of the worn flanks at their deepest place [mm]."""
+        return self.found.depths.depth
+
+    @property
+    def depth_error(self) -> float:
+        """Standard error of the depth [mm]."""
+        return self.found.depths.depth_error
+
+    @property
+    def teeth(self) -> "pd.DataFrame":
+        """A row for each tooth: its tip in the picture, and its depth."""
+        return tooth_table(self.found).frame()
+
+    @property
+    def gap(self) -> "pd.DataFrame":
+        """A row for each place along the mean gap: new form, depth, standard error, spread."""
+        return depth_table(self.found).frame()
+
+    def _content(self) -> dict[str, Any]:
+        return scan_json(self.found)
+
+    def pictures(self) -> "dict[str, Figure]":
+        """Return the photograph with the new form and the worn edge on it.
+
+        Returns
+        -------
+        dict of matplotlib.figure.Figure
+            ``overlay``.
+        """
+        from wearsim.scanning.figure import overlay_figure
+
+        return {"overlay": overlay_figure(self.found)}
+
+    def _files(self) -> Mapping[str, str]:
+        readings = (
+            {"readings.csv": readings_csv(self.found)} if self.found.hours and self.found.is_worn else {}
+        )
+        return {
+            "teeth.csv": csv_of(self.teeth),
+            "gap.csv": csv_of(self.gap),
+            "points.csv": points_csv(self.found),
+            **readings,
+            "scan.txt": f"{self.explained}\n",
+        }
+
+
+def scan(
+    photograph: str | PathLike[str],
+    case: CaseInput | None = None,
+    *,
+    chain: str | None = None,
+    teeth: int | None = None,
+    profile: str | None = None,
+    bore: float | None = None,
+    scale: tuple[float, float, float, float, float] | None = None,
+    dpi: float | None = None,
+    hours: float | None = None,
+    sprocket: str | None = None,
+    progress: Progress = silent,
+) -> ScanResult:
+    """Measure the wear of a sprocket in a photograph of it, taken along its axis.
+
+    The new form comes from a case, or from a chain whose sprocket has a standard form. It gives the scale
+    too, unless one of bore, scale and dpi is given.
+
+    Parameters
+    ----------
+    photograph : path
+        PNG, JPEG or TIFF of one sprocket off its drive, with all teeth in the picture.
+    case : Case, DriveCase, path or mapping, optional
+        The drive of the sprocket.
+    chain : str, optional
+        Designation of the chain, in place of a case.
+    teeth : int, optional
+        Number of teeth, with a chain; counted without it.
+    profile : str, optional
+        ``iso606``, ``ansi_b29`` or ``gost591``, with a chain; by default that of the chain's series.
+    bore : float, optional
+        Diameter of the bore [mm], where it is seen as a hole.
+    scale : tuple of float, optional
+        Two points of the picture x1, y1, x2, y2 [px] in the plane of the teeth, and their distance [mm].
+    dpi : float, optional
+        Dots per inch of a flatbed scan.
+    hours : float, optional
+        Running hours of the sprocket since it was new [h]; with a case the hours that are left follow.
+    sprocket : str, optional
+        Which sprocket of a whole drive it is, by its name.
+    progress : callable, optional
+        Called with the fraction done of the life that is computed, from 0 to 1.
+
+    Returns
+    -------
+    ScanResult
+        ``depth``, ``depth_error``, ``teeth`` and ``gap``.
+
+    Raises
+    ------
+    TypeError
+        Neither a case nor a chain is given, or both, or several scales.
+    CaseError
+        What is wrong with the photograph, the case or the chain.
+    GeometryError
+        A number is out of its range.
+    ContactError, ConvergenceError
+        The life of the case cannot be run.
+
+    Examples
+    --------
+    >>> import wearsim
+    >>> wearsim.scan("wheel.txt", chain="08B")
+    Traceback (most recent call last):
+    wearsim.errors.CaseError: wheel.txt: must be a picture, but cannot be opened (No such file or directory):
+    check the path
+    """
+    if (case is None) == (chain is None):
+        raise TypeError("scan: must be given the new form, by a case or by a chain")
+    if case is not None and (teeth is not None or profile is not None):
+        raise TypeError("scan: teeth and profile belong to a chain, a case says its own")
+    if sum(one is not None for one in (bore, scale, dpi)) > 1:
+        raise TypeError("scan: must be given at most one of bore, scale and dpi")
+    check_ranges(
+        "scan", {"teeth": teeth, "profile": profile, "bore": bore, "dpi": dpi, "hours": hours}, _ALLOWED
+    )
+    if scale is not None:
+        check_series("scan", "scale", scale, Range(least=0.0), 5)
+        check_ranges("scan", {"scale[4]": scale[4]}, {"scale[4]": ABOVE_0})
+    one = None if case is None else _of_one(loaded(case), sprocket)
+    picture = read_photograph(Path(photograph))
+    seen = find_silhouette(picture)
+    if one is not None:
+        wheel = wheel_of_case(one)
+    else:
+        assert chain is not None
+        wheel = replace(wheel_of_chain(chain, teeth or seen.teeth, profile), per_case=teeth is not None)
+    found = scan_photograph(picture, seen, wheel, _scale(picture, seen, wheel, bore, scale, dpi))
+    return ScanResult(_with_hours(found, one, hours, progress))
+
+
+def _scale(
+    picture: Photograph,
+    seen: Silhouette,
+    wheel: NewWheel,
+    bore: float | None,
+    scale: tuple[float, float, float, float, float] | None,
+    dpi: float | None,
+) -> LookUp | None:
+    """Return what the scale is known from beside the form."""
+    if bore is not None:
+        return by_bore(picture, seen, wheel.root_radius, bore)
+    if scale is not None:
+        return by_points(picture, scale[:4], scale[4])
+    return None if dpi is None else by_dots(dpi)
+
+
+def _of_one(case: Case | DriveCase, sprocket: str | None) -> Case:
+    """Return the case of the sprocket in the picture."""
+    cases = {} if isinstance(case, Case) else case.titled_cases()
+    if isinstance(case, Case) and sprocket is None:
+        return case
+    if sprocket in cases:
+        return cases[sprocket]
+    got = "" if sprocket is None else f" (got {sprocket!r})"
+    names = f"one of {', '.join(map(repr, cases))}" if cases else "leave its name out, the case has only one"
+    raise CaseError([Fault(f"must say which sprocket is in the picture: {names}{got}", "", case.name)])
+
+
+def _with_hours(
+    found: ScannedWheel, case: Case | None, hours: float | None, progress: Progress
+) -> ScannedWheel:
+    """Return what is found with the running time, and the remaining hours if the depth is sure enough."""
+    if hours is None or case is None:
+        return replace(found, hours=hours)
+    depths = found.depths
+    if not found.is_worn:
+        text = "the depth is within its error, so no remaining hours follow: measure later, or from nearer"
+        return replace(found, hours=hours, warnings=(*found.warnings, text))
+    reading = SingleReading(DEPTH, depths.depth, SURE * depths.depth_error, hours)
+    try:
+        left = remaining_life(case, reading, progress)
+    except CaseError as error:
+        reasons = "; ".join(fault.message for fault in error.faults)
+        return replace(found, hours=hours, warnings=(*found.warnings, f"no remaining hours: {reasons}"))
+    return replace(found, hours=hours, remaining=left, warnings=(*found.warnings, *left.warnings))

@@ -1,0 +1,135 @@
+"""``wearsim scan``: the wear of a sprocket from a photograph of it."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from wearsim.command.answered import Shown, shown_options
+from wearsim.command.cases_and_runs import one_sprocket
+from wearsim.command.complete import CasePath, complete_chain
+from wearsim.command.options import (
+    common_options,
+    finite,
+    keeping_runs,
+    load_cases,
+    overrides,
+    sprocket_option,
+    working,
+)
+
+_POSITIVE = click.FloatRange(min=0.0, min_open=True)
+
+
+class _ScalePoints(click.ParamType[Any]):
+    """Two points of a picture and how far they are apart."""
+
+    name = "points"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the five numbers."""
+        try:
+            numbers = tuple(float(part) for part in str(value).split(","))
+        except ValueError:
+            numbers = ()
+        if len(numbers) != 5:
+            self.fail(f"{value!r} is not five numbers x1,y1,x2,y2,mm", param, ctx)
+        return numbers
+
+
+@click.command(short_help="Measure the wear of a sprocket in a photograph.")
+@click.argument("photo", type=click.Path(dir_okay=False, path_type=Path), metavar="PHOTO")
+@click.option("--case", type=CasePath(path_type=Path), metavar="CASE", help="Case of the sprocket's drive.")
+@click.option(
+    "--chain",
+    metavar="NAME",
+    shell_complete=complete_chain,
+    help="Chain of a standard sprocket, if there is no CASE.",
+)
+@click.option(
+    "--teeth",
+    type=click.IntRange(5, 150),
+    metavar="Z",
+    help="Number of teeth, with --chain; counted by default.",
+)
+@click.option(
+    "--profile",
+    type=click.Choice(("iso606", "ansi_b29", "gost591")),
+    help="Tooth form, with --chain; default: that of its series.",
+)
+@click.option(
+    "--bore-mm",
+    type=_POSITIVE,
+    metavar="MM",
+    callback=finite,
+    help="Scale: diameter of the bore, if it shows as a hole. Default: the scale of the tooth form.",
+)
+@click.option(
+    "--scale",
+    type=_ScalePoints(),
+    metavar="X1,Y1,X2,Y2,MM",
+    help="Scale: two points of the picture, in pixels, and their distance in mm.",
+)
+@click.option(
+    "--dpi", type=_POSITIVE, metavar="DPI", callback=finite, help="Scale: dots per inch of a flatbed scan."
+)
+@click.option(
+    "--hours",
+    type=_POSITIVE,
+    metavar="H",
+    callback=finite,
+    help="Running hours of the sprocket since it was new; with --case, the remaining hours follow.",
+)
+@shown_options("the overlay, tables, points and a reading")
+@sprocket_option
+@keeping_runs
+@overrides
+@common_options
+def scan(
+    photo: Path,
+    case: Path | None,
+    chain: str | None,
+    teeth: int | None,
+    profile: str | None,
+    bore_mm: float | None,
+    scale: tuple[float, float, float, float, float] | None,
+    dpi: float | None,
+    hours: float | None,
+    sprocket: str | None,
+    shown: Shown,
+    settings: tuple[str, ...],
+) -> None:
+    """Measure the wear of the sprocket in PHOTO (PNG, JPEG or TIFF), tooth by tooth.
+
+    Photograph the bare wheel along its axis, from far away, dark on a bright ground or the other way
+    round, with all teeth in the picture. Its new form comes from --case, or from --chain for a standard
+    sprocket. The picture does not leave this computer.
+    """
+    if (case is None) == (chain is None):
+        raise click.UsageError("give the new form of the sprocket: --case CASE or --chain NAME")
+    if case is None and (settings or sprocket):
+        raise click.UsageError("--set and --sprocket belong to --case")
+    if case is not None and (teeth or profile):
+        raise click.UsageError("--teeth and --profile belong to --chain: a CASE has its own")
+    if sum(one is not None for one in (bore_mm, scale, dpi)) > 1:
+        raise click.UsageError("give at most one of --bore-mm, --scale and --dpi")
+    loaded = None
+    if case is not None:
+        loaded = one_sprocket(load_cases([case], settings, shown.as_json)[0], case, sprocket)
+    shown.check(photo)
+    from wearsim.scanning import answer
+
+    with shown.failing(photo.stem), working(f"measuring {photo.name}") as progress:
+        found = answer.scan(
+            photo,
+            loaded,
+            chain=chain,
+            teeth=teeth,
+            profile=profile,
+            bore=bore_mm,
+            scale=scale,
+            dpi=dpi,
+            hours=hours,
+            progress=progress,
+        )
+    shown.save(found, photo)

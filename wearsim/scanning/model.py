@@ -1,0 +1,131 @@
+"""A worn sprocket in a photograph: its teeth, the depth of their flanks, and what is doubtful about them."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from wearsim.scanning.flank_depths import FlankDepths, flank_depths
+from wearsim.scanning.known_scales import LookUp
+from wearsim.scanning.new_wheel import NewWheel
+from wearsim.scanning.photograph import Photograph, bad_photograph
+from wearsim.scanning.placement import EDGE_BIAS, SEARCH, place_wheel
+from wearsim.scanning.silhouette import Silhouette
+from wearsim.study.remaining.model import RemainingLife
+
+_TILTED = 0.97
+"""Smaller diameter over the larger one, below which the sides of the teeth are seen too."""
+
+_OFF_FORM = 0.15
+"""How far the mean of all gaps may be off the new form where it does not wear [px]."""
+
+_BOTH = 0.5
+"""Depth of the other flank over that of the worn one, above which both are worn."""
+
+_SCALES_DIFFER = (0.01, 0.05)
+"""Relative difference of two scales that is doubtful, and that is wrong."""
+
+_SEEN = 0.8
+"""Part of the places along the worn flank that must have an edge."""
+
+SURE = 2.0
+"""Standard errors from which a depth is told from none."""
+
+
+@dataclass(frozen=True, eq=False)
+class ScannedWheel:
+    """What a photograph tells of a worn sprocket."""
+
+    photograph: Photograph
+    seen: Silhouette
+    depths: FlankDepths
+    warnings: tuple[str, ...]
+    hours: float | None = None  # running time of the sprocket [h]
+    remaining: RemainingLife | None = None  # what is left of its life after them
+
+    @property
+    def wheel(self) -> NewWheel:
+        """Its new form."""
+        return self.depths.place.wheel
+
+    @property
+    def is_worn(self) -> bool:
+        """Whether the depth is told from none."""
+        return self.depths.depth > SURE * self.depths.depth_error
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What the depth rests on."""
+        known = self.depths.place.known
+        return (
+            f"the new form is {self.wheel.words}",
+            "roots, tips and the less worn flank are as new where they fit the form; the tip diameter is any",
+            "the scale is that of the form" if known is None else f"the scale is that of {known.words}",
+            "the teeth are seen along their axis, and their edges are the outline of the wheel",
+            "the picture is coded as sRGB, as cameras and scanners do",
+        )
+
+
+def scan_photograph(
+    photograph: Photograph, seen: Silhouette, wheel: NewWheel, known: LookUp | None = None
+) -> ScannedWheel:
+    """Return the wear of the sprocket in a photograph; raise CaseError where it cannot be measured."""
+    if wheel.teeth != seen.teeth:
+        raise bad_photograph(
+            photograph.name,
+            f"the wheel must have {wheel.teeth} teeth as given, but {seen.teeth} are counted: give the case "
+            "of this wheel, or correct the number of teeth",
+        )
+    depths = flank_depths(place_wheel(photograph, wheel, seen, known))
+    _check_fit(photograph, depths)
+    return ScannedWheel(photograph, seen, depths, tuple(_warnings(seen, depths)))
+
+
+def _check_fit(photograph: Photograph, depths: FlankDepths) -> None:
+    """Raise where the wheel in the picture cannot be the one that is said."""
+    place = depths.place
+    if place.known and abs(place.known.scale / place.form_scale - 1.0) > _SCALES_DIFFER[1]:
+        raise bad_photograph(
+            photograph.name,
+            f"the scale of {place.known.words} and that of the teeth must agree, but differ by "
+            f"{100.0 * (place.known.scale / place.form_scale - 1.0):+.1f} %: check both, and the profile",
+        )
+    share = depths.seen_share
+    if not share > 0.5:
+        raise bad_photograph(
+            photograph.name,
+            f"the worn flank must be seen, but only {100.0 * share:.0f} % of it lies near the new form: "
+            "check chain and profile, clean the wheel, and light it without shadows",
+        )
+
+
+def _warnings(seen: Silhouette, depths: FlankDepths) -> Iterator[str]:
+    place = depths.place
+    misfit = depths.misfit * place.scale
+    if misfit > _OFF_FORM:
+        yield (
+            f"the unworn part of the wheel deviates from the new form by {depths.misfit:.2g} mm "
+            f"({misfit:.2f} pixels): check chain and profile; the depth may be wrong by several times as much"
+        )
+    if abs(place.bias) > 3.0 * EDGE_BIAS * place.blur:
+        yield (
+            f"edges lie {place.bias:+.2f} pixels off the new form all around: check chain and profile, or "
+            "light the wheel from all sides"
+        )
+    if depths.other_depth > max(_BOTH * depths.depth, 3.0 * depths.depth_error):
+        yield (
+            f"both flanks are worn ({depths.other_depth:.2g} mm on the other one), so that little is left to "
+            "place the wheel by, or the profile is another: the sum of both depths is more certain than each"
+        )
+    if seen.roundness < _TILTED:
+        angle = math.degrees(math.acos(seen.roundness))
+        yield f"the camera was tilted by about {angle:.0f} degrees, and may see sides of teeth: hold it level"
+    if place.known and abs(place.known.scale / place.form_scale - 1.0) > _SCALES_DIFFER[0]:
+        part = 100.0 * (place.known.scale / place.form_scale - 1.0)
+        yield f"the scale of {place.known.words} differs by {part:+.1f} % from that of the teeth: check both"
+    if depths.seen_share < _SEEN:
+        yield (
+            f"only {100.0 * depths.seen_share:.0f} % of the worn flank has a clear edge: clean the wheel, "
+            "and avoid shadows"
+        )
+    if depths.depth > 0.8 * SEARCH * place.wheel.pitch:
+        yield f"edges are looked for down to {SEARCH * place.wheel.pitch:.2g} mm: the wear may be deeper"
