@@ -63,12 +63,12 @@ def compare(
     found = results_of(loaded, as_json)
     from wearsim.drive.drive_result import DriveLife
     from wearsim.report.chain_first import chain_first_of
-    from wearsim.report.comparison import comparison_table, differing_limits, distinct, save_comparison
+    from wearsim.report.comparison import comparison_table, differing_limits, distinct_rows, save_comparison
     from wearsim.report.drive.drives_table import drives_table, save_drives
 
     drives = [one for one in found.values() if isinstance(one, DriveLife)]
     runs = {str(path): one for path, one in found.items() if not isinstance(one, DriveLife)}
-    singles = distinct(list(runs.values()), list(runs))
+    singles = distinct_rows(list(runs.values()), list(runs))
     if out is not None:
         if drives:
             save_drives(drives, out, force)

@@ -43,7 +43,7 @@ def flank_panel(
     """Draw the new flank; the worn one moves."""
     frames = list(zip(*points, strict=True))
     still = () if flank.name == "wheel" else around_flank(result, flank)
-    last = flank.strokes(*frames[-1])
+    last = flank.strokes(*frames[-1], flank.factor)
     labels = {"new": "new", "worn": f"worn, depth x {flank.factor}"}
     labels |= {shape.role: shape.name for shape in still if isinstance(shape, Circle)}
     artists = draw_flank(panel, (*still, *last), _LOOKS, labels)
@@ -53,7 +53,7 @@ def flank_panel(
     between, _, worn, deepest = artists[len(still) :]
 
     def _show(frame: int) -> None:
-        off, _, now, deep = flank.strokes(*frames[frame])
+        off, _, now, deep = flank.strokes(*frames[frame], flank.factor)
         between.set_xy(off.vertices)
         worn.set_data(*now.vertices.T)
         deepest.set_data(*deep.vertices.T)

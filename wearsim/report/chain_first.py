@@ -43,8 +43,9 @@ def chain_first_of(results: Sequence[WearResult]) -> str:
         for result in results
     ]
     text = chain_first(result.stop for result in results) if len(set(forms)) > 1 else ""
-    sprockets = {result.case: result.parts.get("sprocket") for result in results}
     lives = ", ".join(
-        f"{grouped(life.hours)} h ({name})" for name, life in sprockets.items() if isinstance(life, Life)
+        f"{grouped(life.hours)} h ({result.case})"
+        for result in results
+        if isinstance(life := result.parts.get("sprocket"), Life)
     )
     return f"{text}; the sprockets last {lives}" if text and lives else text

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from wearsim.files import new_folder
+from wearsim.quantities import grouped
 from wearsim.report.answer import governing_text, headline, limit_text
 from wearsim.report.answer_table import AnswerTable, Column, life_columns
 from wearsim.report.chain_first import chain_first_of
@@ -29,6 +30,7 @@ def comparison_table(results: Sequence[WearResult]) -> AnswerTable[WearResult]:
             *life_columns("life_hours_high", lambda one: one.life_high),
             Column("", lambda one: limit_text(one.stop, one.stop_value), "limit"),
             Column("", lambda one: f"{hours(one.life_high)} / {hours(one.life_low)}", "at low / high wear"),
+            *(column for name in ("chain", "sprocket") for column in _part_columns(results, name)),
             Column("ratio_to_first", lambda one: _ratio(one.life, first), "ratio to first", "{:.3g}"),
             Column("stop", lambda one: one.stop),
             Column("stop_value", lambda one: one.stop_value),
@@ -36,20 +38,27 @@ def comparison_table(results: Sequence[WearResult]) -> AnswerTable[WearResult]:
             *life_columns("governing_life_hours", lambda one: one.earliest_life if one.fatigue else None),
             Column("initial_peak_pressure_MPa", lambda one: one.initial_peak_pressure),
             Column("final_peak_pressure_MPa", lambda one: one.final_peak_pressure),
-            Column("", _pressures, "peak pressure, MPa"),
+            Column("", lambda one: f"{grouped(one.hours_run)} h", "end of run"),
+            Column("", _pressures, "peak pressure, new -> end of run, MPa"),
             Column(
                 "removed_area_mm2",
                 lambda one: float(one.history_columns["removed_area_mm2"][-1]),
-                "removed area, mm2",
+                "removed by then, mm2",
                 "{:.3g}",
             ),
             Column("max_depth_mm", lambda one: one.max_depth),
             Column("max_depth_arc_length_mm", lambda one: one.max_depth_arc_length),
-            Column("", _deepest, "deepest, mm"),
+            Column("", _deepest, "deepest by then, mm"),
             Column("", lambda one: governing_text(one) if one.fatigue else "-", governs),
         ],
         results,
     )
+
+
+def _part_columns(results: Sequence[WearResult], name: str) -> list[Column[WearResult]]:
+    """Return the columns of the life of chain or sprocket, shown where a result has one."""
+    known = any(name in result.parts for result in results)
+    return life_columns(f"{name}_life_hours", lambda one: one.parts.get(name), name if known else None)
 
 
 def _ratio(life: Life | LowerBound, first: Life | LowerBound) -> float | None:
@@ -88,6 +97,15 @@ def distinct(results: list[WearResult], names: list[str]) -> list[WearResult]:
     return [
         replace(result, title=f"{result.title} [{name}]") if titles.count(result.title) > 1 else result
         for result, name in zip(results, names, strict=True)
+    ]
+
+
+def distinct_rows(results: list[WearResult], names: list[str]) -> list[WearResult]:
+    """Return results whose titles and names of cases tell them apart."""
+    cases = [result.case for result in results]
+    return [
+        replace(result, case=name) if cases.count(result.case) > 1 else result
+        for result, name in zip(distinct(results, names), names, strict=True)
     ]
 
 

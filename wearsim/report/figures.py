@@ -100,27 +100,29 @@ def number_ticks(axis: Axis) -> None:
 
 
 def flanks_figure(results: list[WearResult]) -> Figure:
-    """Return the flanks new and at the end of their lives, the depth enlarged, with the roller."""
+    """Return the flanks new and at the end of their lives, all depths enlarged alike, with the roller."""
     columns = min(3, len(results))
     rows = -(-len(results) // columns)
     layout = ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.1)
     figure = Figure(figsize=(0.8 + 4.0 * columns, 0.4 + 4.4 * rows), layout=layout)
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
+    factor = min(flanks_of_life(result)[0].factor for result in results)
     for panel, result in zip(panels, results, strict=False):
-        draw_worn_flank(panel, result)
+        draw_worn_flank(panel, result, factor)
     for panel in panels[len(results) :]:
         panel.set_visible(False)
     return figure
 
 
-def draw_worn_flank(panel: Axes, result: WearResult) -> None:
-    """Draw a flank new and at the end of its life, the depth enlarged, with the roller."""
+def draw_worn_flank(panel: Axes, result: WearResult, factor: int | None = None) -> None:
+    """Draw a flank new and at the end of its life, the depth enlarged, by its own factor if none is given."""
     flank = flanks_of_life(result)[0]
+    factor = factor or flank.factor
     extent, depth, still = flank.extent, flank.depth[-1], around_flank(result, flank)
-    shapes = flank.strokes(flank.x[-1], flank.y[-1], depth)
+    shapes = flank.strokes(flank.x[-1], flank.y[-1], depth, factor)
     labels = {
         "new": "new flank",
-        "worn": f"worn, depth x {flank.factor}",
+        "worn": f"worn, depth x {factor}",
         "deepest": f"deepest, {depth.max():.3g} mm",
     }
     draw_flank(panel, (*still, *shapes), LOOKS, labels)

@@ -69,10 +69,12 @@ class WornFlank:
         )
         return WornFlank(self.name, np.append(self.cycles[before], end), x, y, depth)
 
-    def strokes(self, x: Vector, y: Vector, depth: Vector) -> tuple[Stroke, Stroke, Stroke, Stroke]:
+    def strokes(
+        self, x: Vector, y: Vector, depth: Vector, factor: int
+    ) -> tuple[Stroke, Stroke, Stroke, Stroke]:
         """Return what is worn off at a time, the new flank, the worn one and its deepest point, enlarged."""
         new = np.column_stack([self.x[0], self.y[0]])
-        worn = new + self.factor * (np.column_stack([x, y]) - new)
+        worn = new + factor * (np.column_stack([x, y]) - new)
         deepest = worn[[depth.argmax()]] if depth.any() else worn[:0]
         return (
             Stroke("between", np.concatenate([new, worn[::-1]]), closed=True),

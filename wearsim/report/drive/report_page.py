@@ -198,7 +198,7 @@ def _flank(result: WearResult) -> Scene:
     """Return the flank of a sprocket, new and at the end of its own life."""
     (flank,) = worn_flanks(result)
     depth = flank.depth[-1]
-    between, new, worn, deepest = flank.strokes(flank.x[-1], flank.y[-1], depth)
+    between, new, worn, deepest = flank.strokes(flank.x[-1], flank.y[-1], depth, flank.factor)
     room = _AROUND * flank.extent
     low, high = new.vertices.min(axis=0) - room, new.vertices.max(axis=0) + room
     box = float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1])
