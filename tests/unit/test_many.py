@@ -140,7 +140,7 @@ def test_coefficients_scale_the_life_without_another_run(monkeypatch: pytest.Mon
 
 
 def test_wide_contact_on_the_way_is_warned_of() -> None:
-    """The flank of 12B conforms most in mid-life: 0.637 mm at 2500 N, at the start 0.451, in the end 0.543 mm."""
+    """A flank of 12B conforms most in mid-life: 0.637 mm, 0.451 at the start and 0.543 in the end."""
     chain, contact = "chain.designation=12B-1", ["contact_start_mm=23.5", "contact_end_mm=3.5"]
     sprocket = ["teeth=24", "evolute_offset_mm=4", "face_width_mm=11", "nodes=201", *contact]
     load = ["load.tension_N=2500", "load.speed_rpm=90", "stop.critical_depth_mm=0.15"]
