@@ -270,3 +270,25 @@ def test_dollars_are_no_formulas(cli, sweep, tmp_path):
     path = sweep(text, STUDY.replace("Test sweep", "cost $x_{$"))
     assert cli("sweep", path, "--out", out).code == 0
     assert "cost $x_{$" in (out / "parallel.svg").read_text(encoding="utf-8")
+
+
+def test_swept_key_takes_the_place_of_what_gives_the_same(cli, sweep, drive):
+    """The case gives a power. P = F v with v = n z p: 3 kN at 20 teeth are 20/25 of those at 25 teeth."""
+    done, found = lives(cli, sweep('[grid]\n"load.tension_N" = [3000]\n"sprocket.teeth" = [20, 25]\n'))
+    assert (done.code, len(found)) == (0, 2)
+    single = cli("life", drive(), "--json", "--set", "load.tension_N=3000")
+    assert json.loads(single.out)["title"].endswith("with load.tension_N = 3000, without load.power_kW")
+    assert found[0][1] == json.loads(single.out)["life_hours"]
+    both = cli("check", drive(), "--set", "load.tension_N=3000", "--set", "load.power_kW=3")
+    assert both.code == 2
+    assert "give exactly one of tension_N, power_kW, torque_N_m" in both.err
+
+
+def test_warnings_of_cases_close_the_answer(cli, sweep):
+    """A tolerance of 1e-5 is out of reach, one of 0.1 is not; rows of --json hold their own warnings."""
+    path = sweep('[grid]\n"run.life_tolerance" = [0.1, 1e-5]\n')
+    done = cli("sweep", path)
+    [line] = [line for line in done.err.splitlines() if line.startswith("warning: ")]
+    assert line.startswith("warning: 1 of 2 cases has warnings")
+    assert "the first: numerical error " in line
+    assert "warning" not in cli("sweep", path, "--json").err

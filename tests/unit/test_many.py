@@ -3,6 +3,7 @@
 Expected: what `simulate` finds for each case alone, to the bit.
 """
 
+import re
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -136,6 +137,22 @@ def test_coefficients_scale_the_life_without_another_run(monkeypatch: pytest.Mon
     assert lives[1] == pytest.approx(lives[0] / 2.0, rel=1e-15)
     assert lives[2] == pytest.approx(lives[0] / 7.0, rel=1e-15)
     assert all(same(one, case) for one, case in zip(found, cases, strict=False))
+
+
+def test_wide_contact_on_the_way_is_warned_of() -> None:
+    """A flank of 12B conforms most in mid-life: 0.637 mm, 0.451 at the start and 0.543 in the end."""
+    chain, contact = "chain.designation=12B-1", ["contact_start_mm=23.5", "contact_end_mm=3.5"]
+    sprocket = ["teeth=24", "evolute_offset_mm=4", "face_width_mm=11", "nodes=201", *contact]
+    load = ["load.tension_N=2500", "load.speed_rpm=90", "stop.critical_depth_mm=0.15"]
+    case = strand(chain, *(f"sprocket.{text}" for text in sprocket), *load)
+    [found] = simulate_many([case])
+    assert isinstance(found, CaseLife)
+    widths = [
+        re.findall(r"half-width up to ([\d.]+) mm", str(one))
+        for one in (found.warnings, wearsim.simulate(case).warnings)
+    ]
+    assert [len(one) for one in widths] == [1, 1]
+    assert float(widths[0][0]) == pytest.approx(float(widths[1][0]), rel=0.005)
 
 
 def test_error_of_a_case_takes_its_place(table: CaseMaker) -> None:

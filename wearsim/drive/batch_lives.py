@@ -17,12 +17,12 @@ from wearsim.drive.lubricant import late_relubrication
 from wearsim.drive.validity import few_cycles, low_contact_ratio_in_the_end, wide_contact
 from wearsim.drive.wear_task import WearTask, wear_tasks
 from wearsim.errors import WearsimError
+from wearsim.kernels.controlled_steps import widest
 from wearsim.kernels.hertz_wear import DEPTH, LOAD, RELATIVE, flank_rate
 from wearsim.kernels.rosenbrock import WORK_ROWS
 from wearsim.result import Life, LowerBound, life_of
-from wearsim.wear.advance import advance_batch
+from wearsim.wear.advance import StartAndEnd, advance_batch
 from wearsim.wear.problem import WearProblem
-from wearsim.wear.trajectory import Trajectory
 
 _BATCH = 32
 """Flanks of one compiled call."""
@@ -47,7 +47,7 @@ class CaseLife:
     parts: Mapping[str, Life | LowerBound] = field(default_factory=dict)
 
 
-Worn = tuple[Trajectory, float] | None
+Worn = tuple[StartAndEnd, float] | None
 """Start and end of a flank over cycles times coefficient, and the error of its steps, if they are found."""
 
 
@@ -58,6 +58,8 @@ class _AloneError(Exception):
 @dataclass(frozen=True, eq=False)
 class _BatchRun(FlankRun):
     """A run of which only start and end are known."""
+
+    trajectory: StartAndEnd
 
     def change(self, other: FlankRun) -> float:
         """Return the relative difference to another that ended in the same way."""
@@ -219,6 +221,7 @@ def _life(case: Case, job: _CaseJob | None) -> CaseLife | WearsimError:
     if job is None or job.settled is None:
         return _alone(case)
     settled, task, run = job.settled, job.settled.run.task, job.settled.run.trajectory
+    assert isinstance(run, StartAndEnd)
     cycles, reached = float(run.cycles[-1]), run.met is not None
     warnings = [
         *case.warnings,
@@ -239,25 +242,17 @@ def _life(case: Case, job: _CaseJob | None) -> CaseLife | WearsimError:
     )
 
 
-def _half_width(task: WearTask[FlankContact], run: Trajectory) -> float:
-    """Return the greatest half-width of the contact [mm], new or worn."""
+def _half_width(task: WearTask[FlankContact], run: StartAndEnd) -> float:
+    """Return the greatest half-width of the contact over the run [mm]."""
     contact, law = task.contact, task.law.unit_numbers(task.contact.kind)
-    work, widest = np.empty((WORK_ROWS, contact.profile.x.size)), 0.0
-    for state in np.stack([run.x, run.y, run.depth], axis=1):
-        flank_rate(
-            contact.kernel,
-            state,
-            state[DEPTH],
-            contact.constants,
-            contact.columns,
-            contact.modulus,
-            law,
-            work,
-        )
-        load, relative = work[LOAD], work[RELATIVE]
-        touching = (load > 0.0) & (relative > 0.0)
-        widest = max(widest, float(half_width(load[touching], relative[touching], contact.modulus).max()))
-    return widest
+    work, state = (
+        np.empty((WORK_ROWS, contact.profile.x.size)),
+        np.stack([run.x[-1], run.y[-1], run.depth[-1]]),
+    )
+    flank_rate(
+        contact.kernel, state, state[DEPTH], contact.constants, contact.columns, contact.modulus, law, work
+    )
+    return float(half_width(widest(work[LOAD], work[RELATIVE], run.widest), 1.0, contact.modulus))
 
 
 def _alone(case: Case) -> CaseLife | WearsimError:

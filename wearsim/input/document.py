@@ -68,8 +68,19 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
     data = copy.deepcopy(dict(given.tables))
     for item in overrides:
         _override(data, item)
+    if keys:
+        _remove_alternatives(data, keys)
     given = replace(given, tables=data)
     return Document(given.name, given.folder, retitled(data, given.written), faults, given)
+
+
+def _remove_alternatives(data: dict[str, Any], keys: Sequence[str]) -> None:
+    """Remove what cannot stand beside keys that were set."""
+    # Schemas are read from documents.
+    from wearsim.input.giving_way import alternatives, remove
+
+    for other in alternatives(data, keys):
+        remove(data, other)
 
 
 def _given(source: str | Path | CaseText | Mapping[str, Any]) -> GivenInput:

@@ -79,9 +79,14 @@ class Table(BaseModel):
         return []
 
     @classmethod
+    def one_of(cls) -> tuple[tuple[str, ...], ...]:
+        """Return groups of keys that exclude each other, as they give the same quantity."""
+        return ()
+
+    @classmethod
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
         """Return the keys of this table, and of those in it, whose place a new value of a key takes."""
-        return ()
+        return others_of(key, *cls.one_of())
 
     def plain(self, target: type[_Plain], **others: Any) -> _Plain:
         """Return the values as an object of plain numbers in mm, N, MPa, rpm and rad.

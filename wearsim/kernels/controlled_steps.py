@@ -14,6 +14,7 @@ from wearsim.kernels.hertz_wear import (
     DEPTH,
     DEPTH_REACHED,
     HORIZON,
+    LOAD,
     NORMAL_X,
     NORMAL_Y,
     PATH_CURVATURE,
@@ -40,10 +41,11 @@ if TYPE_CHECKING:
 STATE_ROWS = 8
 """Of a state on the path: x, y, depth, rate, the direction a point recedes in (2), 1/rho_H."""
 
-TIME, STEP, WRITTEN, RATES, END, STATUS = range(6)
+TIME, STEP, WRITTEN, RATES, END, STATUS, WIDEST = range(7)
 """Of the clock: time, next step, states on the path, rates evaluated, time at which the run has
-ended within its last step, how it stands. A clock of zeros starts a run."""
-CLOCK = 6
+ended within its last step, how it stands, greatest load over 1/rho_H [N] before its last step: that of the
+widest contact. A clock of zeros starts a run."""
+CLOCK = 7
 
 MODULUS, DIFFUSION, LIMIT, TOLERANCE, END_TIME = range(5)
 """Of the numbers of a flank: E*, e, depth allowed, tolerance of a step, time at which it ends in any case."""
@@ -116,6 +118,16 @@ def part_to_depth(start: Vector, end: Vector, step: float, limit: float) -> floa
             middle = 0.5 * (low + high)
         first = high
     return first
+
+
+@kernel(float64(VECTOR, VECTOR, float64))
+def widest(load: Vector, relative: Vector, before: float) -> float:
+    """Return the greatest load over 1/rho_H where the mate touches, or that of before."""
+    greatest = before
+    for j in range(load.size):
+        if load[j] > greatest * relative[j] and relative[j] > 0.0:
+            greatest = load[j] / relative[j]
+    return greatest
 
 
 @kernel(int64(TABLE, TABLE, VECTOR, VECTOR, CUBE))
@@ -255,6 +267,7 @@ def wear_in_steps(
             clock[END] = end
             return HORIZON
         clock[END] = clock[TIME]
+        clock[WIDEST] = widest(work[LOAD], work[RELATIVE], clock[WIDEST])
         if status != RUNNING:
             return status
         if sawtooth(state[DEPTH], depth_limit) >= 0:

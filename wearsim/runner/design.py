@@ -1,5 +1,6 @@
 """The cases of a study: one input file, and values for some of its keys."""
 
+import copy
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
@@ -16,6 +17,7 @@ from wearsim.drive.wheels import part_names
 from wearsim.errors import CaseError, Fault
 from wearsim.files import given_text
 from wearsim.input.document import Document
+from wearsim.input.giving_way import alternatives, remove
 from wearsim.input.keys import is_dict, schema_fields, schema_of
 from wearsim.input.mechanism_registry import MECHANISMS, WHOLE_DRIVE, mechanism_of
 from wearsim.input.table import is_number, without_numbers
@@ -170,7 +172,7 @@ def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]
     """Return the cases of a study with the texts of all their files."""
     _check_keys(document, keys, file)
     files: dict[str, str] = {}
-    tables: Mapping[str, Any] = document.data
+    tables: Mapping[str, Any] = _without(document.data, alternatives(document.data, keys))
     for path in file_paths(document.data):
         given = value_at(tables, ".".join(path))
         if isinstance(given, str):
@@ -185,6 +187,14 @@ def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]
         for row in rows
     )
     return Design(document.name, tables, files, tuple(keys), moved)
+
+
+def _without(given: Mapping[str, Any], keys: Sequence[str]) -> Mapping[str, Any]:
+    """Return tables in which keys are not given."""
+    tables = copy.deepcopy(dict(given))
+    for key in keys:
+        remove(tables, key)
+    return tables
 
 
 def _check_keys(document: Document, keys: Sequence[str], file: str) -> None:

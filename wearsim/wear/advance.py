@@ -10,6 +10,7 @@ constant to rounding.
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -33,6 +34,13 @@ _LOOSEST, _FINEST, _TIGHTEST = 1e-3, 1e-9, 0.9e-11
 _PART_OF_TOLERANCE = 0.1
 """A run starts with this part of the tolerance of the life between the first two, and with a tenth of
 it again and again, not below the third, until two lives agree."""
+
+
+@dataclass(frozen=True, eq=False)
+class StartAndEnd(Trajectory):
+    """A run of which the flanks on the way are not kept."""
+
+    widest: float  # greatest load over relative curvature on the way [N]: that of the widest contact
 
 
 class _Life:
@@ -106,7 +114,7 @@ def run_advance(problem: WearProblem[AnyContact], life_tolerance: float) -> tupl
 
 def advance_batch(
     problems: Sequence[WearProblem[FlankContact]], life_tolerances: Sequence[float]
-) -> list[tuple[Trajectory, float] | None]:
+) -> list[tuple[StartAndEnd, float] | None]:
     """Wear flanks of one kind together, each down to its depth limit; keep their start and end only.
 
     None stands for one whose life is not found so.
@@ -118,12 +126,13 @@ def advance_batch(
     return [None if run is None or next(folded) else run for run in runs]
 
 
-def _start_and_end(life: _Life) -> tuple[Trajectory, float] | None:
+def _start_and_end(life: _Life) -> tuple[StartAndEnd, float] | None:
     found = life.found
     if not isinstance(found, Solution):
         return None
     rows = np.array([unworn(life.problem.contact), found.final])
-    return _trajectory(life, found, np.array([0.0, found.end]), rows), life.change
+    run = _trajectory(life, found, np.array([0.0, found.end]), rows)
+    return StartAndEnd(**vars(run), widest=found.widest), life.change
 
 
 def _trajectory(life: _Life, solution: Solution, times: Vector, rows: Rows) -> Trajectory:

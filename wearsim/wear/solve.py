@@ -17,6 +17,7 @@ from wearsim.kernels.controlled_steps import (
     RATES,
     STATE_ROWS,
     STATUS,
+    WIDEST,
     WRITTEN,
     states_between,
     wear_flanks,
@@ -49,13 +50,14 @@ class Solution:
     met: StopLimit | None
     rates: int
     final: Rows  # x, y and depth at the end
+    widest: float  # greatest load over relative curvature [N] of the steps taken, the last left out
     # states at their times, the end between the last two
     times: Vector = field(default_factory=lambda: np.empty(0))
     path: Rows = field(default_factory=lambda: np.empty((0, STATE_ROWS, 0)))
 
     def ended(self) -> "Solution":
         """Return the end alone, without the memory that the states take."""
-        return Solution(self.end, self.met, self.rates, self.final)
+        return Solution(self.end, self.met, self.rates, self.final, self.widest)
 
     def change(self, before: "Solution") -> float:
         """Return the relative difference from a solve that met the same limit.
@@ -138,7 +140,8 @@ class _Flanks:
         if status not in (DEPTH_REACHED, HORIZON):
             return TooManyStepsError() if status == RUNNING else ConvergenceError()
         met = problem.stop_limits[0] if status == DEPTH_REACHED else None
-        return Solution(float(clock[END]), met, int(clock[RATES]), self.states[place])
+        end, rates, widest = float(clock[END]), int(clock[RATES]), float(clock[WIDEST])
+        return Solution(end, met, rates, self.states[place], widest)
 
 
 class _Solve:
@@ -159,7 +162,7 @@ class _Solve:
         if failing is None and status not in (DEPTH_REACHED, HORIZON):
             self._refuse(status)
         met = self.problem.stop_limits[0] if status == DEPTH_REACHED else None
-        end, rates = float(self.clock[END]), int(self.clock[RATES])
+        end, rates, widest = float(self.clock[END]), int(self.clock[RATES]), float(self.clock[WIDEST])
         if failing is not None:
             times, path = self.chunks[-1]
             if failing + 1 < times.size:
@@ -168,7 +171,8 @@ class _Solve:
         times, path = (np.concatenate(parts) for parts in zip(*self.chunks, strict=True))
         if failing is not None:
             end, met = self._limit_in_last_step(times[-2:].copy(), path[-2:].copy(), end, met)
-        return Solution(end, met, rates, states_at(np.array([end]), times, path)[0], times, path)
+        final = states_at(np.array([end]), times, path)[0]
+        return Solution(end, met, rates, final, widest, times, path)
 
     def _states(self) -> int:
         return sum(times.size for times, _ in self.chunks)

@@ -122,10 +122,10 @@ class DriveTable(Table):
     joint_friction: Annotated[NotNegative, Field(le=1.0)] | None = None
 
     @classmethod
-    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
-        """Return the keys whose place a new value of a key takes."""
-        one_of = ("links", "centre_distance_mm"), ("slack_tension_N", "sag_percent")
-        return others_of(key, *one_of, ("slack_tension_N", "inclination_deg"))
+    def one_of(cls) -> tuple[tuple[str, ...], ...]:
+        """Return groups of keys that exclude each other."""
+        slack = ("slack_tension_N", "sag_percent"), ("slack_tension_N", "inclination_deg")
+        return ("links", "centre_distance_mm"), *slack
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -424,9 +424,9 @@ class DutyBlock(Table):
     power_share: dict[str, PositiveNumber] | None = None
 
     @classmethod
-    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
-        """Return the keys whose place a new value of a key takes."""
-        return others_of(key, LOAD_KEYS)
+    def one_of(cls) -> tuple[tuple[str, ...], ...]:
+        """Return groups of keys that exclude each other."""
+        return (LOAD_KEYS,)
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""
@@ -488,12 +488,17 @@ class LoadTable(Table):
     duty_speed_ratio: PositiveNumber | None = None
 
     @classmethod
+    def one_of(cls) -> tuple[tuple[str, ...], ...]:
+        """Return groups of keys that exclude each other."""
+        return (LOAD_KEYS,)
+
+    @classmethod
     def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
         """Return the keys whose place a new value of a key takes."""
         if key == "duty_file":
             return (*LOAD_KEYS, "speed_rpm", "regime")
         of_a_log = ("duty_file", *_OF_A_LOG) if key in (*LOAD_KEYS, "speed_rpm", "regime") else ()
-        return (*others_of(key, LOAD_KEYS), *of_a_log)
+        return (*super().gives_way(key, value), *of_a_log)
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

@@ -313,9 +313,9 @@ class FlankMaterialTable(Table):
     contact_safety: AtLeastOne | None = None
 
     @classmethod
-    def gives_way(cls, key: str, value: Any) -> tuple[str, ...]:
-        """Return the keys whose place a new value of a key takes."""
-        return others_of(key, ("hardness_HB", "hardness_HRC"))
+    def one_of(cls) -> tuple[tuple[str, ...], ...]:
+        """Return groups of keys that exclude each other."""
+        return (("hardness_HB", "hardness_HRC"),)
 
     def conflicts(self) -> list[tuple[str, str]]:
         """Return what is wrong between the keys of this table."""

@@ -122,12 +122,15 @@ def _as_whole(value: float) -> float:
 
 
 def values_of(given: Range) -> list[float]:
-    """Return the values of a range.
+    """Return the values of a range, those between its ends with 15 digits, which spacing keeps at least.
 
     Examples
     --------
     >>> values_of(Range(**{"from": 1.0, "to": 100.0, "count": 3, "spacing": "log"}))
     [1.0, 10.0, 100.0]
+    >>> values_of(Range(**{"from": 1000.0, "to": 4000.0, "count": 3, "spacing": "log"}))
+    [1000.0, 2000.0, 4000.0]
     """
     spaced = np.geomspace if given.spacing == "log" else np.linspace
-    return [float(value) for value in spaced(given.first, given.last, given.count)]
+    between = spaced(given.first, given.last, given.count)[1:-1]
+    return [given.first, *(float(f"{value:.15g}") for value in between), given.last]

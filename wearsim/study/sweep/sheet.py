@@ -40,6 +40,15 @@ def sweep_caution(sweep: Sweep, table: pd.DataFrame) -> str:
     return text and f"{text}; wearsim life of a case gives the service life of its sprocket too"
 
 
+def sweep_warning(table: pd.DataFrame) -> str:
+    """Return how many cases have warnings, and the first one."""
+    warned = [text for text in table["warnings"] if text]
+    if not warned:
+        return ""
+    count = f"{len(warned)} of {len(table)} cases {'has' if len(warned) == 1 else 'have'} warnings"
+    return f"{count} (listed by --json and in cases.csv of --out), the first: {warned[0].splitlines()[0]}"
+
+
 def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
     """Return a sweep as JSON, an object for each case."""
     lines = []
