@@ -172,6 +172,16 @@ class LubricationIntervals:
         that a chain lives.
 
         Equation physics.md (O5).
+
+        Parameters
+        ----------
+        interval : float
+            Between relubrications [h].
+
+        Returns
+        -------
+        float
+            e(I) + e(I_0), 0 at the interval that was run and where no chains are renewed.
         """
         chains = [part.hours for part in self.parts if not part.on_chain]
         if interval == self.own or not chains or len(chains) == len(self.parts):
