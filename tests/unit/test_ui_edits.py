@@ -12,7 +12,8 @@ from nicegui.page import page
 from wearsim.chain.rating_findings import RatingFinding
 from wearsim.drive.drive_start import start_text
 from wearsim.drive.load_case import load_case, load_drive
-from wearsim.input.document import CaseText, is_whole_drive
+from wearsim.input.document import CaseText
+from wearsim.input.mechanism_registry import is_whole_drive
 from wearsim.page.answer_panel import light, rating_list
 from wearsim.page.answers import edited_case
 from wearsim.page.case_file import example, example_titles

@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
-from wearsim.input.document import CaseSource, Document, check_command, is_whole_drive, read_document
-from wearsim.input.mechanism_registry import read_case
+from wearsim.input.document import CaseSource, Document, check_command, read_document
+from wearsim.input.mechanism_registry import is_whole_drive, read_case
 
 if TYPE_CHECKING:
     from wearsim.drive.drive_case import DriveCase

@@ -25,9 +25,9 @@ from wearsim.catalogue.catalogues import KG_PER_M, Chain, chains
 from wearsim.catalogue.chain_names import chain_name, name_of_strands, strands_there_are
 from wearsim.contact.stop_limits import CHAIN_LIMITS
 from wearsim.geometry.forms import TOOTH_FORMS
-from wearsim.input.document import Document, is_whole_drive
+from wearsim.input.document import Document
 from wearsim.input.faults import Faults
-from wearsim.input.mechanism_registry import mechanism_of
+from wearsim.input.mechanism_registry import is_whole_drive, mechanism_of
 from wearsim.lubrication.read import lubrication_input
 
 _DEEP = 0.3

@@ -17,6 +17,7 @@ from wearsim.errors import CaseError, Fault
 from wearsim.files import given_bytes
 from wearsim.input.column_files import with_column_files
 from wearsim.input.faults import Faults
+from wearsim.input.giving_way import alternatives, remove
 from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import plain_tables
 
@@ -76,9 +77,6 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
 
 def _remove_alternatives(data: dict[str, Any], keys: Sequence[str]) -> None:
     """Remove what cannot stand beside keys that were set."""
-    # Schemas are read from documents.
-    from wearsim.input.giving_way import alternatives, remove
-
     for other in alternatives(data, keys):
         remove(data, other)
 
@@ -93,17 +91,6 @@ def _given(source: str | Path | CaseText | Mapping[str, Any]) -> GivenInput:
     text = source.text if isinstance(source, CaseText) else text_of(path)
     data = _parsed(path, text)
     return GivenInput(str(path), "case" if path == STDIN else path.stem, path.parent, text, data, data)
-
-
-def is_whole_drive(tables: Mapping[str, Any]) -> bool:
-    """Tell whether tables name every sprocket of a drive.
-
-    Examples
-    --------
-    >>> is_whole_drive({"sprocket": [{"teeth": 21}, {"teeth": 57}]}), is_whole_drive({"sprocket": {}})
-    (True, False)
-    """
-    return isinstance(tables.get("sprocket"), list)
 
 
 def retitled(tables: Mapping[str, Any], written: Mapping[str, Any]) -> dict[str, Any]:

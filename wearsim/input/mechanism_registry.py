@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from wearsim.geometry.forms import TOOTH_FORMS
-from wearsim.input.document import Document, is_whole_drive
 from wearsim.jit.compiled import expect
 from wearsim.lazy import named
+
+if TYPE_CHECKING:
+    from wearsim.input.document import Document
 
 STRAND_FORMS = tuple(name for name, form in TOOTH_FORMS.items() if form.on_strand)
 WRAP_FORMS = tuple(name for name in TOOTH_FORMS if name not in STRAND_FORMS)
@@ -112,6 +114,17 @@ WHOLE_DRIVE = replace(
 """A chain and all of its sprockets, each of which it wraps."""
 
 
+def is_whole_drive(tables: Mapping[str, Any]) -> bool:
+    """Tell whether tables name every sprocket of a drive.
+
+    Examples
+    --------
+    >>> is_whole_drive({"sprocket": [{"teeth": 21}, {"teeth": 57}]}), is_whole_drive({"sprocket": {}})
+    (True, False)
+    """
+    return isinstance(tables.get("sprocket"), list)
+
+
 def mechanism_of(data: Mapping[str, Any]) -> MechanismEntry:
     """Return the mechanism that tables are about, whether or not they are right.
 
@@ -131,7 +144,7 @@ def mechanism_of(data: Mapping[str, Any]) -> MechanismEntry:
     return MECHANISMS[kind if isinstance(kind, str) and kind in MECHANISMS else default]
 
 
-def read_case(document: Document) -> Any:
+def read_case(document: "Document") -> Any:
     """Return the complete case of a document; only the models of its mechanism are imported."""
     mechanism = mechanism_of(document.data)
     read = mechanism.load("read")
