@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import wearsim
+from tests.photographs import Camera, new_gap, picture, wheel, with_pocket
 from wearsim.cli.command_groups import COMMAND_GROUPS
 from wearsim.cli.handbook import HANDBOOK
 from wearsim.cli.main import wearsim_command
@@ -102,8 +103,11 @@ def bare(tmp_path):
 
 @pytest.mark.wide
 @pytest.mark.parametrize("example", [one for one in EXAMPLES if one.split()[1] not in (*NEEDS, "warm")])
-def test_example_runs_as_printed_on_the_bare_installation(bare, example):
-    """All but the kernels, which take a minute to compile."""
+def test_example_runs_as_printed_on_the_bare_installation(bare, example, tmp_path):
+    """All but the kernels, which take a minute to compile; the photograph of the example is rendered."""
+    if example.split()[1] == "scan":
+        gap = with_pocket(new_gap(12.7, 8.51, 19, "iso606"), 0.3)
+        picture(wheel([gap] * 19), Camera()).save(tmp_path / "sprocket.jpg")
     done = bare(example)
     assert done.returncode == 0, done.stderr
 

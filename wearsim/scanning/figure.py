@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
@@ -40,7 +41,7 @@ def _draw_picture(axes: Axes, found: ScannedWheel) -> None:
     new = place.projection.seen(points)
     worn = place.projection.seen(points - factor * depth[..., None] * normals)
     axes.add_collection(LineCollection(list(new), colors="C0", linewidths=0.7, label="new form"))
-    drawn = LineCollection(_pieces(worn), cmap="plasma", linewidths=1.3, label=f"worn edge, depth x {factor}")
+    drawn = LineCollection(_pieces(worn), cmap="plasma", linewidths=1.3)
     drawn.set_array(depth[:, :-1].ravel())
     axes.add_collection(drawn)
     axes.figure.colorbar(drawn, ax=axes, label="depth, mm")
@@ -50,6 +51,8 @@ def _draw_picture(axes: Axes, found: ScannedWheel) -> None:
     reach = 1.25 * np.abs(tips - tips.mean(axis=0)).max(axis=0)
     (left, top), (right, bottom) = tips.mean(axis=0) - reach, tips.mean(axis=0) + reach
     axes.set(xlim=(max(left, -0.5), min(right, width)), ylim=(min(bottom, height), max(top, -0.5)))
+    # As deep wear is drawn: a collection of many colours has the first one in a legend.
+    axes.plot([], [], color=colormaps["plasma"](0.7), label=f"worn edge, depth x {factor}")
     axes.legend(loc="upper right", fontsize=7)
 
 
