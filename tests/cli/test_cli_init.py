@@ -273,7 +273,9 @@ def test_all_faults_at_once(cli):
     done = cli("init", *words(wrong))
     assert done.code == 2
     assert sorted(line.partition(":")[0] for line in done.err.splitlines()) == sorted(EXAMPLE)
-    assert cli("init", "--links", "120", "--centre", "800").err.startswith("--centre: links already gives this")
+    assert cli("init", "--links", "120", "--centre", "800").err.startswith(
+        "--centre: links already gives this"
+    )
 
 
 def test_answers_of_a_terminal_are_options(asked, cli):

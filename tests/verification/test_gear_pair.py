@@ -283,7 +283,7 @@ def test_contact_fatigue_beside_the_wear() -> None:
     assert result.governing == "wear"
     loaded = ["load.torque_N_m=350", "wear.specific_wear_rate_mm2_per_N=1e-12"]
     first = " ".join(wearsim.simulate(wearsim.load_case(SHIPPED, loaded)).warnings)
-    assert "contact fatigue of the pinion comes before the wear" in first
+    assert "contact fatigue of the pinion ends the life before wear" in first
     greatest = wearsim.simulate(wearsim.load_case(SHIPPED, ["load.torque_N_m=5000"]))
     assert "too high for the pinion from the start" in " ".join(greatest.warnings)
     assert set(greatest.parts.values()) == {wearsim.Life(0.0, 0.0)}

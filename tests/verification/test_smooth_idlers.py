@@ -85,7 +85,7 @@ def test_a_grown_chain_keeps_its_place_on_a_smooth_wheel() -> None:
             {"smooth_diameter_mm": 60, "role": "driven"},
             r"sprocket\.3\.role: a smooth wheel transmits no power",
         ),
-        ({"smooth_diameter_mm": 10}, "smooth wheel 'idler' must be at least 13.1 mm wide"),
+        ({"smooth_diameter_mm": 10}, "smooth wheel 'idler' must be at least 13.1 mm in diameter"),
         ({"smooth_diameter_mm": -1}, r"sprocket\.3\.smooth_diameter_mm"),
         ({"teeth": 13}, r"sprocket\.3\.profile: this key is required"),
     ],
