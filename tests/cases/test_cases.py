@@ -143,7 +143,8 @@ def test_it_runs_to_a_complete_result(name):
     for columns in (run.history_columns, run.flank_columns):
         for key, values in columns.items():
             assert values.size > 1, key
-            assert np.all(np.isnan(values) if key in unknown else np.isfinite(values)), key
+            touched = columns["load_per_width_N_per_mm"] > 0.0 if key == "sliding_speed_mm_per_s" else ...
+            assert np.all(np.isnan(values) if key in unknown else np.isfinite(values[touched])), key
     assert np.all(np.diff(run.history_columns["max_depth_mm"]) > 0.0)
     assert run.history_columns["max_depth_mm"][-1] == run.max_depth > 0.0
     assert run.initial_peak_pressure > 0.0

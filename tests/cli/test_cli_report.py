@@ -152,6 +152,24 @@ def test_a_single_file_holds_the_script(cli, drive, tmp_path):
     assert not re.search(r'(?:src|href)="(?:https?:)?//', markup)
 
 
+def test_a_file_of_one_case_is_the_page_itself(cli, drive, tmp_path):
+    out = tmp_path / "sheet.html"
+    assert cli("report", drive(), "--out", out).out == f"{out}\n"
+    assert out.is_file()
+    assert 'src="plotly' not in text_of(out)
+    taken = cli("report", drive(), "--out", out)
+    assert (taken.code, taken.out) == (2, "")
+    assert cli("report", drive(), "--out", out, "--force").code == 0
+
+
+@pytest.mark.parametrize("name", ["sheet.html", "sheet.pdf"])
+def test_a_file_holds_one_drive(cli, drive, tmp_path, name):
+    out = tmp_path / name
+    done = cli("report", drive(), drive("other"), "--out", out)
+    assert (done.code, out.exists()) == (2, False)
+    assert f"{name} is a file, which holds one drive" in " ".join(done.err.split())
+
+
 @pytest.mark.wide
 def test_a_title_is_text(cli, drive, tmp_path):
     out = tmp_path / "out"

@@ -48,7 +48,7 @@ def _head_options(function: Callable[..., Any]) -> Callable[..., Any]:
     "--out",
     required=True,
     type=click.Path(path_type=Path),
-    help="New folder, or a file *.pdf of one drive; for a whole drive, also a file *.html.",
+    help="New folder, or of one drive a file: *.html or *.pdf.",
 )
 @click.option("--single-file", is_flag=True, help="Self-contained pages with their scripts, about 5 MB each.")
 @click.option(
@@ -76,6 +76,8 @@ def report(
 
     Open index.html in the folder: the page of the drive, or, for several, a comparison that links to
     their pages. The pages need no network. Needs jinja2 and plotly (pip install 'wearsim[report]').
+
+    --out sheet.html writes the page of one drive as a single file.
 
     A case with [[sprocket]] twice or more is a whole drive: one page, a calculation sheet for A4,
     which needs jinja2 only.
@@ -119,17 +121,14 @@ def _sheet_head(head: Mapping[str, str]) -> "SheetHead":
 
 def _check_place(out: Path, force: bool, single_file: bool, count: int) -> None:
     """Raise where pages cannot be written or replaced."""
-    from wearsim.files import check_folder
-    from wearsim.report.html.pdf import check_pdf, is_pdf
+    from wearsim.report.drive.report_page import check_sheet
+    from wearsim.report.html.pdf import is_page, is_pdf
 
-    if not is_pdf(out):
-        check_folder(out, force)
-        return
-    if count > 1:
-        raise click.UsageError("a PDF is of one drive: run wearsim report for each")
-    if single_file:
+    if count > 1 and (is_page(out) or is_pdf(out)):
+        raise click.UsageError(f"{out} is a file, which holds one drive: give a folder for several")
+    if single_file and is_pdf(out):
         raise click.UsageError("a PDF holds no scripts: leave --single-file out")
-    check_pdf(out, force)
+    check_sheet(out, force)
 
 
 def _report_drive(

@@ -153,6 +153,8 @@ def _tables(case: Case, mechanism: Mechanism, run: Trajectory) -> tuple[dict[str
     load = np.array([touch.load_per_width for touch in touches])
     relative = np.array([touch.relative_curvature for touch in touches])
     speed = np.array([touch.sliding_speed for touch in touches])
+    # A strand says 0 where no roller touches, which is no speed of anything.
+    touched = np.where((load > 0.0) | (speed > 0.0), speed, np.nan)
     pressure = peak_pressure(load, np.maximum(relative, 0.0), contact.modulus)
     history = {
         **common_history(case, run),
@@ -174,7 +176,7 @@ def _tables(case: Case, mechanism: Mechanism, run: Trajectory) -> tuple[dict[str
         "y_mm": run.y.ravel(),
         "depth_mm": run.depth.ravel(),
         "pressure_MPa": pressure.ravel(),
-        "sliding_speed_mm_per_s": speed.ravel(),
+        "sliding_speed_mm_per_s": touched.ravel(),
         "load_per_width_N_per_mm": load.ravel(),
         "relative_curvature_per_mm": relative.ravel(),
         **mechanism.mate_columns(run.depth),

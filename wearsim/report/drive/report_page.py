@@ -37,7 +37,7 @@ from wearsim.report.drive.page_tables import (
 )
 from wearsim.report.html.page_content import HtmlTable, chain_tables
 from wearsim.report.html.paper import SheetHead, foot
-from wearsim.report.html.pdf import check_pdf, is_pdf, save_pdf
+from wearsim.report.html.pdf import check_pdf, is_page, is_pdf, save_pdf
 from wearsim.report.html.sketch import sketch
 from wearsim.report.rating import sheet_ratings
 from wearsim.report.text_lines import unbroken
@@ -111,11 +111,6 @@ def save_sheet(found: DriveLife, head: SheetHead, out: Path, force: bool) -> Pat
     with new_folder(out, force) as place:
         (place / "index.html").write_text(text, encoding="utf-8", newline="\n")
     return out / "index.html"
-
-
-def is_page(out: Path) -> bool:
-    """Tell whether a place is one for a page and not for a folder."""
-    return out.suffix.lower() in (".html", ".htm")
 
 
 def check_sheet(out: Path, force: bool) -> None:

@@ -11,10 +11,10 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from wearsim._version import __version__
-from wearsim.files import file_names, new_folder
+from wearsim.files import file_names, new_folder, write_file
 from wearsim.report.html.page_content import case_page, comparison_page
 from wearsim.report.html.paper import SheetHead
-from wearsim.report.html.pdf import is_pdf, save_pdf
+from wearsim.report.html.pdf import is_page, is_pdf, save_pdf
 from wearsim.result import WearResult
 
 _HERE = Path(__file__).parent
@@ -31,7 +31,7 @@ def save_report(
 ) -> list[Path]:
     """Write a page for each result, and one that compares them where there are several; return the files.
 
-    They lie in a new folder; the page of a single result may be a PDF.
+    They lie in a new folder; the page of a single result may be one file, *.html or *.pdf.
     """
     names = file_names([result.case for result in results])
     brief = detail == "brief"
@@ -42,6 +42,10 @@ def save_report(
     if is_pdf(out):
         ((template, page),) = pages.values()
         save_pdf(render(template, page, single_file=False, several=False), out, force)
+        return [out]
+    if is_page(out):
+        ((template, page),) = pages.values()
+        write_file(out, render(template, page, single_file=True, several=False), force)
         return [out]
     written: dict[str, tuple[str, Any]] = dict(pages)
     if len(results) == 1:

@@ -45,6 +45,11 @@ def is_pdf(out: Path) -> bool:
     return out.suffix.lower() == ".pdf"
 
 
+def is_page(out: Path) -> bool:
+    """Tell whether a place is one for a single page and not for a folder."""
+    return out.suffix.lower() in (".html", ".htm")
+
+
 def check_pdf(out: Path, force: bool) -> None:
     """Raise where a PDF cannot be written or replaced, or nothing can print it."""
     check_file(out, force)
