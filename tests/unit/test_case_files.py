@@ -104,7 +104,8 @@ def test_columns(faults):
     assert "run.csv:1: each column may appear only once" in faults(PRESCRIBED, table(*ROWS, head=twice))
     semicolons = [row.replace(",", ";") for row in ROWS]
     messages = faults(PRESCRIBED, table(*semicolons, head=HEAD.replace(",", ";")))
-    assert messages[0] == "run.csv:1: column 'arc_length_mm' is missing"
+    said = "columns are separated by semicolons: separate them by commas, and write decimals with a point"
+    assert messages == [f"run.csv:1: {said}"]
 
 
 @pytest.mark.parametrize(("columns", "found"), [("", 0), (",slip_ratio,sliding_distance_mm", 2)])
@@ -122,7 +123,7 @@ def test_too_little(faults, content):
 
 def test_thousands_of_bad_rows_stay_quick_and_short(faults):
     rows = [f"{s};100;-0.01;0.5" for s in range(5000)]
-    messages = faults(PRESCRIBED, table(*rows, head=HEAD.replace(",", ";")))
+    messages = faults(PRESCRIBED, table(*rows, head=HEAD))
     assert len(messages) == 21
     assert messages[-1].startswith("and ")
 
