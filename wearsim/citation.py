@@ -41,7 +41,7 @@ def cff() -> str:
             lines += ["    publisher:", f"      name: {_quoted(reference['publisher'])}"]
         lines += [
             f"    {key}: {_quoted(reference[key])}"
-            for key in ("journal", "issue", "year", "start", "end", "doi", "notes")
+            for key in ("journal", "volume", "issue", "year", "start", "end", "doi", "notes")
             if key in reference
         ]
     return "\n".join(lines) + "\n"
@@ -74,7 +74,7 @@ def bibtex() -> str:
     }
     entries = [_bibtex_entry("software", "wearsim", own)]
     for reference in known["references"]:
-        kind = {"article": "article", "book": "book"}.get(reference["type"], "misc")
+        kind = _bibtex_kind(reference)
         pages = [str(reference[key]) for key in ("start", "end") if key in reference]
         fields = {
             "author": _bibtex_authors(reference),
@@ -83,6 +83,7 @@ def bibtex() -> str:
                 name: _bibtex_text(str(reference[key]))
                 for name, key in (
                     ("journal", "journal"),
+                    ("volume", "volume"),
                     ("number", "issue"),
                     ("publisher", "publisher"),
                     ("year", "year"),
@@ -95,6 +96,12 @@ def bibtex() -> str:
         }
         entries.append(_bibtex_entry(kind, reference["key"], fields))
     return "\n".join(entries)
+
+
+def _bibtex_kind(reference: dict[str, Any]) -> str:
+    """Return the kind of an entry: an article must have a journal, a book publisher and year."""
+    needed = {"article": ("journal",), "book": ("publisher", "year")}.get(reference["type"])
+    return "misc" if needed is None or any(key not in reference for key in needed) else str(reference["type"])
 
 
 def _bibtex_entry(kind: str, key: str, fields: dict[str, str]) -> str:
@@ -129,7 +136,8 @@ def apa(version: str = __version__) -> str:
 
 def _apa_source(reference: dict[str, Any]) -> str:
     pages = "-".join(str(reference[key]) for key in ("start", "end") if key in reference)
-    place = ", ".join(str(part) for part in (reference.get("journal"), reference.get("issue"), pages) if part)
+    told = (reference.get(key) for key in ("journal", "volume", "issue"))
+    place = ", ".join(str(part) for part in (*told, pages) if part)
     parts = [
         f"{_apa_authors(reference)} ({reference.get('year', 'n.d.')})",
         reference["title"],

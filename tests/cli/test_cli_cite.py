@@ -17,6 +17,7 @@ REFERENCE_KEYS = {
     "authors",
     "publisher",
     "journal",
+    "volume",
     "issue",
     "year",
     "start",
@@ -95,6 +96,8 @@ def test_bibtex_is_well_formed(cli):
     entries = re.findall(r"^@(\w+)\{(\w+),\n((?:  \w+ = \{.*\},\n)+)\}$", text, re.MULTILINE)
     assert len(entries) == 1 + len(citation_facts()["references"]) == text.count("@")
     assert len({key for _, key, _ in entries}) == len(entries)
+    assert {kind for kind, _, body in entries if "journal = " not in body} == {"software", "book", "misc"}
+    assert {"archard1953", "lewis2004", "dowson1968", "johnson"} <= {key for _, key, _ in entries}
     for _, _, body in entries:
         assert body.count("{") == body.count("}")
         assert not re.search(r"(?<!\\)[&%$#_]", re.sub(r"doi = \{.*\}", "", body))

@@ -212,5 +212,5 @@ def test_case_without_a_wrap(cli, drive):
     done = cli("loads", drive())
     assert (done.code, done.out) == (2, "")
     assert "mechanism.kind" in done.err
-    assert "kind = 'wrap'" in done.err
+    assert "the loads of this flank are in flank.csv of wearsim life --out" in done.err
     assert cli("loads", "nowhere.toml").code == 2

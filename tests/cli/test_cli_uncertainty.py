@@ -230,7 +230,7 @@ def test_bounds_do_not_converge(cli, case):
 
 def test_warnings_of_samples_are_grouped(cli, case):
     _, found = answer(cli, case(), "--samples", 16)
-    assert all(text.startswith("16 of 16 samples, such as: ") for text in found["warnings"])
+    assert all(text.startswith("16 of 16 samples, such as case_index 0: ") for text in found["warnings"])
 
 
 def test_plan_finds_what_is_in_the_way(cli, case, tmp_path):

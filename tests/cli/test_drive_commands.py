@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import sys
 
 import pandas as pd
@@ -357,3 +358,13 @@ def test_bounds_on_screen_stand_in_json_and_workbook(cli, drive, tmp_path):
         assert f"{label} {' '.join(rows[label].split())}" in screen
     assert rows["roll"].startswith("> 1 500 h ")
     assert float(sheet.set_index(0)[3]["life_hours_low"]) == pytest.approx(low)
+
+
+def test_speed_of_the_chain_is_printed_as_one_number(cli, drive):
+    """19 teeth of 12.7 mm at 300 rpm are 1.2065 m/s, which lies between two numbers of four digits."""
+    settings = ("sprocket.1.teeth=19", "load.speed_rpm=300", "chain.designation=08B-1")
+    options = [part for setting in settings for part in ("--set", setting)]
+    printed = cli("loads", drive, *options).out + cli("check", drive, "--explain", *options).out
+    found = re.findall(r"([\d.]+) m/s: pull|links at ([\d.]+) m/s", printed)
+    assert len(found) >= 2
+    assert len({one or other for one, other in found}) == 1

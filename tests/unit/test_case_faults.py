@@ -1,5 +1,7 @@
 """Every fault of an input file in one pass: place, key, what is wrong, what to do."""
 
+import re
+
 import pytest
 
 from wearsim.drive.load_case import load_case
@@ -375,3 +377,43 @@ def test_a_key_that_begins_another_one_is_taken_for_it(faults):
     """`share` is the share of time, though `power_share` is more like it letter by letter."""
     text = MINIMAL.split("[load]")[0] + "[[duty]]\nshare = 1.0\ntension_N = 300\nspeed_rpm = 100\n"
     assert any("duty.1.share: unknown key; did you mean 'share_of_time'?" in one for one in faults(text))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("power_kW = 3", "tension_N = 2,5", ":8: not valid TOML: .*: write decimals with a point, 2.5$"),
+        (
+            "power_kW = 3",
+            'tension_N = "250 kg"',
+            "the unit must be one of force, such as N or kN .got '250 kg'",
+        ),
+        ("evolute", "Evolvente", "'Evolvente'.; involutes are teeth of gears .*, not of sprockets$"),
+        ("evolute", "evolut", "did you mean 'evolute'"),
+        ("[wear]", "[drive]\nlinks = 90\n[wear]", "remove it, or set mechanism.kind = 'wrap'$"),
+        (
+            "[wear]",
+            '[uncertainty]\n"load.power_kW" = {distribution = "lognormal", sigma = 0.5}\n[wear]',
+            "uncertainty.load.power_kW.sigma: unknown key; did you mean 'sigma_ln'",
+        ),
+    ],
+)
+def test_common_slips_are_told_what_to_write(faults, old, new, said):
+    found = faults(changed((old, new)))
+    assert any(re.search(said, line) for line in found), found
+
+
+def test_rate_of_another_unit_is_warned_of(tmp_path):
+    """1e-7 mm3/(N m) is 1e-10 mm2/N; lubricated teeth wear at up to 1.5e-9, dry ones at up to 1e-7."""
+    path = tmp_path / "drive.toml"
+
+    def warnings(rate, more=""):
+        path.write_text(
+            changed(('condition = "hardened, oiled"', f"specific_wear_rate_mm2_per_N = {rate}")) + more
+        )
+        return load_case(path).warnings
+
+    (warning,) = warnings("1e-7")
+    assert "1e-07 mm^3/(N*m) is 1e-10 mm2/N, so check the unit" in warning
+    assert not warnings('"1e-7 mm^3/(N*m)"') + warnings("1.5e-8")
+    assert not warnings("1e-7", '[lubrication]\nlubricant = "dry"\n')

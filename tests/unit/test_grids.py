@@ -132,4 +132,4 @@ def test_without_another_life_the_error_is_unknown() -> None:
 def test_what_may_not_be_refined_is_not(levels: int, flank: Flank) -> None:
     found, requested = settled(LIVES, 1e-4, levels, flank)
     assert len(requested) == 3 and found.run.life == 1.02
-    assert "use more nodes (rows of a table)" in found.warnings(1e-4)[0]
+    assert "use more points (nodes, or rows of the table of loads)" in found.warnings(1e-4)[0]

@@ -52,7 +52,7 @@ def mechanism_kind(case: ChainRecord) -> str:
         )
     for place, owner in _BELONGS_TO.items():
         for key in _given(tables, place) if owner != kind else ():
-            case.faults.add(key, f"belongs to kind = {owner!r}: remove it")
+            case.faults.add(key, f"belongs to kind = {owner!r}: remove it, or set mechanism.kind = {owner!r}")
     return kind
 
 

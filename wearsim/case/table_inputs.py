@@ -100,12 +100,8 @@ def _law(case: CaseRecord, table: WearTable) -> WearInput:
     if table.condition is not None and coefficient is None:
         return _condition(case, table, table.condition)
     assert coefficient is not None
-    low, high = _PLAUSIBLE_WEAR_RATE
-    if key == "specific_wear_rate_mm2_per_N" and not low <= coefficient <= high:
-        case.warnings.append(
-            f"wear.specific_wear_rate_mm2_per_N = {coefficient:g} is outside {low:g}..{high:g}: "
-            "1 mm3/(N m) is 1e-3 mm2/N, so check for a factor of 1000"
-        )
+    if key == "specific_wear_rate_mm2_per_N":
+        case.warnings += _doubtful_rate(case, table, coefficient)
     case.assumptions.append("the constants of the wear law are given by the user")
     factor = _band_factor(case, table)
     return WearInput(
@@ -117,6 +113,29 @@ def _law(case: CaseRecord, table: WearTable) -> WearInput:
         band=f"factor {factor:g} to either side",
         band_is_given=table.band_factor is not None,
     )
+
+
+def _doubtful_rate(case: CaseRecord, table: WearTable, rate: float) -> list[str]:
+    """Return a warning of a specific wear rate that looks like one in another unit."""
+    low, high = _PLAUSIBLE_WEAR_RATE
+    start, unit = (
+        f"wear.specific_wear_rate_mm2_per_N = {rate:g} is",
+        f"{rate:g} mm^3/(N*m) is {1e-3 * rate:g} mm2/N",
+    )
+    if not low <= rate <= high:
+        return [f"{start} outside {low:g}..{high:g}: {unit}, so check for a factor of 1000"]
+    most = max(row.high for row in wear_conditions().values() if row.lubricated and row.machine == "any")
+    if rate <= 10.0 * most or _is_dry_or_dirty(case, table):
+        return []
+    return [f"{start} more than 10 times that of any lubricated wear condition: {unit}, so check the unit"]
+
+
+def _is_dry_or_dirty(case: CaseRecord, table: WearTable) -> bool:
+    """Tell whether a case says that no lubricant, or dirt, reaches the teeth."""
+    lubrication = case.inputs.get("lubrication") or {}
+    dirty = lubrication.get("environment") not in (None, "clean")
+    told_dry = table.condition is not None and not wear_conditions()[table.condition].lubricated
+    return told_dry or dirty or lubrication.get("lubricant") == "dry"
 
 
 def _own_law(case: CaseRecord, table: WearTable, law: OwnWearLaw) -> WearInput:

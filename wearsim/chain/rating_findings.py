@@ -94,6 +94,11 @@ class RatedDrive:
             raise CaseError(faults)
 
     @property
+    def chain_speed(self) -> float:
+        """Mean speed of the chain, v = z p n [m/s]."""
+        return self.teeth * self.pitch * self.speed / 6e4
+
+    @property
     def pull(self) -> float:
         """F_t = P/v with v = z p n [N]."""
         return 6.0e7 * self.power / (self.teeth * self.pitch * self.speed)

@@ -71,7 +71,7 @@ class SettledLife:
             return ["the grid error could not be estimated, 100 % is stated"]
         if self.error <= tolerance:
             return []
-        cure = "use more nodes (rows of a table)"
+        cure = "use more points (nodes, or rows of the table of loads)"
         if self.level:
             cure = (
                 f"with the flank refined to {self._taken} points: use more nodes, or a larger "

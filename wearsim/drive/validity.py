@@ -70,7 +70,7 @@ def validity(contact: FlankContact, history: dict[str, Vector], flank: dict[str,
     if spacing > np.median(widths):
         found.append(
             f"points lie {spacing:.3g} mm apart, wider than the contact's half-width "
-            f"{np.median(widths):.3g} mm: use more nodes (rows of a table)"
+            f"{np.median(widths):.3g} mm: use more points (nodes, or rows of the table of loads)"
         )
     if contact.least_curvature > 0.0:
         found += _bridged(contact, history["time_hours"], relative, load)

@@ -69,6 +69,10 @@ def header_faults(names: Sequence[str], required: Sequence[str], optional: Seque
     >>> header_faults(["x_mm", "y:0:root"], ["x_mm"], [])
     ['column 2 must be one of x_mm: its head is no name']
     """
+    if len(names) == 1 and ";" in names[0]:
+        return [
+            "columns are separated by semicolons: separate them by commas, and write decimals with a point"
+        ]
     known = [*required, *optional]
     found = [
         f"column {name!r} is missing{nearest(name, list(names))}" for name in required if name not in names

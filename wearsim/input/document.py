@@ -164,13 +164,20 @@ def text_of(path: Path) -> str:
         raise CaseError([Fault("must be UTF-8 text: save it as UTF-8", "", str(path))]) from None
 
 
+_DECIMAL_COMMA = re.compile(r"=\s*([-+]?\d+),(\d+)\s*(?:#.*)?$")
+"""End of a line whose value is a number with a decimal comma."""
+
+
 def _parsed(path: Path, text: str) -> dict[str, Any]:
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         place = re.search(r"\(at line (\d+), column \d+\)", str(error))
         line = int(place.group(1)) if place else text.count("\n") + 1
-        raise CaseError([Fault(f"not valid TOML: {error}", "", str(path), line)]) from None
+        lines = text.splitlines()
+        found = _DECIMAL_COMMA.search(lines[line - 1]) if line <= len(lines) else None
+        hint = f": write decimals with a point, {found[1]}.{found[2]}" if found else ""
+        raise CaseError([Fault(f"not valid TOML: {error}{hint}", "", str(path), line)]) from None
     except (ValueError, RecursionError) as error:
         raise CaseError([Fault(f"not readable TOML: {error}", "", str(path))]) from None
     _check_depth(data, str(path), text)

@@ -1,6 +1,7 @@
 """Faults of an input file: where each key stands and what is wrong with it, in plain words."""
 
 import difflib
+import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -137,9 +138,9 @@ def known_keys(model: type[BaseModel]) -> list[str]:
 
 
 def _entry(annotation: Any) -> Any:
-    """Return the type of the entries of a list, or of what is no list."""
-    while get_origin(annotation) in (Annotated, list):
-        annotation = get_args(annotation)[0]
+    """Return the type of the entries of a list or of a table of tables, or of what is neither."""
+    while get_origin(annotation) in (Annotated, list, dict):
+        annotation = get_args(annotation)[-1 if get_origin(annotation) is dict else 0]
     return annotation
 
 
@@ -166,9 +167,20 @@ def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
     if kind == "literal_error" and isinstance(got, str):
         allowed = [part.strip("' ") for part in str(entry["ctx"]["expected"]).split(" or ")]
         allowed = [word.strip("' ") for part in allowed for word in part.split(",")]
-        close = difflib.get_close_matches(got, allowed, n=1, cutoff=0.5)
-        hint = f"; did you mean {close[0]!r}?" if close else ""
+        hint = _meant(got, allowed)
     return f"{text} (got {_shown(got)}){hint}"
+
+
+_INVOLUTE = re.compile(r"involut|evolvent", re.IGNORECASE)
+"""Begins the name of the involute in English, German and French."""
+
+
+def _meant(given: str, allowed: list[str]) -> str:
+    """Name the word that is most like another one; the evolute form is no involute."""
+    if "evolute" in allowed and _INVOLUTE.match(given):
+        return "; involutes are teeth of gears ([gear]), not of sprockets"
+    close = difflib.get_close_matches(given, allowed, n=1, cutoff=0.5)
+    return f"; did you mean {close[0]!r}?" if close else ""
 
 
 def _length_message(found: Mapping[str, Any], kind: str) -> str:
@@ -187,14 +199,18 @@ def _shown(value: object) -> str:
 def _similar(key: str, names: list[str]) -> str:
     """Name the keys like an unknown one: of its own table first, then the same word elsewhere.
 
-    A table by the dotted name of another key is not of the schema, and has its keys alone.
+    A table by the dotted name of another key is not of the schema, and has its keys alone: those that
+    stand below the table of the schema that holds it.
     """
-    table, _, last = without_numbers(key).rpartition(".")
-    if table and table not in names:
-        return ""
+    own, _, last = without_numbers(key).rpartition(".")
+    table = own
+    while table and table not in names:
+        table = table.rpartition(".")[0]
     siblings = [name.rpartition(".")[2] for name in names if name.rpartition(".")[0] == table]
     if close := _closest(last, siblings):
         return f"; did you mean '{close}'?"
+    if table != own:
+        return ""
     close = _closest(last, [name.rpartition(".")[2] for name in names])
     found = [f"'{name}'" for name in names if name.rpartition(".")[2] == close]
     return f"; did you mean {' or '.join(found[:_MAX_SIMILAR])}?" if found else ""

@@ -66,7 +66,8 @@ def _converted(number: float, given: str, unit: str) -> float:
         units = _registry().parse_units(_POWER.sub(r"\1^\2", given))
         converted = float(_registry().Quantity(number, units).to(unit).magnitude)
     except pint.DimensionalityError:
-        raise ValueError(f"the unit must be convertible to {unit}") from None
+        needed = "one of force, such as N or kN" if unit == "N" else f"convertible to {unit}"
+        raise ValueError(f"the unit must be {needed}") from None
     except Exception:
         raise ValueError(
             f"unknown unit {given!r}: must be a number, or a string such as '1 {unit}'"

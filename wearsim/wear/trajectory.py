@@ -149,8 +149,7 @@ def check_sawtooth(contact: FlankContact, depth: Vector, cycles: float, depth_li
     if sawtooth(given * (depth.max() / given.max()), depth_limit) >= 0:
         raise ConvergenceError(
             f"{place}: load times sliding of the new flank must vary smoothly along it, but alternates "
-            "from point to point, and so does the depth: smooth the table of loads, or take more nodes "
-            "(rows)"
+            "from point to point, and so does the depth: smooth the table of loads, or give it more rows"
         )
     raise ConvergenceError(
         f"{place}: the depth must vary smoothly along the flank, but alternates from point to point, so "

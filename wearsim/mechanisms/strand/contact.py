@@ -140,7 +140,7 @@ class StrandMechanism:
             sliding,
             "the chain is a guided straight strand at the evolute offset "
             f"{self.strand.offset:.4g} mm (crawler, conveyor, rack drive); a chain that wraps lies "
-            "at most 0.52 p/z inside the centrode and cannot reach contact ratio 1 there",
+            "about 0.52 p/z inside the centrode and cannot reach contact ratio 1 there",
             "the kinematics, and the synthesis of an evolute flank, are a reconstruction from "
             "Euler-Savary/Bobillier: the source's equations (1) to (9) are lost",
             "successive rollers share the pull by linear ramps over the overlap, also on the worn "

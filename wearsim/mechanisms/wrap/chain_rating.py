@@ -59,10 +59,9 @@ def drive_notes(
 ) -> list[str]:
     """Return what a designer asks of a chain drive that no rule limits."""
     small = min(layout.rated_teeth)
-    speed = rated.teeth * rated.pitch * rated.speed / 6e4
     return [
         _laid_out(layout),
-        f"{rated.power:.4g} kW at {speed:.4g} m/s: pull {rated.pull:.5g} N; small sprocket "
+        f"{rated.power:.4g} kW at {rated.chain_speed:.4g} m/s: pull {rated.pull:.5g} N; small sprocket "
         f"{rated.teeth:g} teeth at {rated.speed:.5g} rpm, ratio "
         f"{max(layout.rated_teeth) / small:.4g}",
         f"polygon effect: the speed of the chain varies by {100.0 * polygon_effect(small):.2f} % "

@@ -558,8 +558,10 @@ def instead_of(case: Case) -> str:
     return "this is a pair of gears" if "gear" in case.inputs else "set kind = 'wrap'"
 
 
-def wrap_drive(case: Case, message: str, key: str = "mechanism.kind", where: str = "") -> WrapDrive:
+def wrap_drive(
+    case: Case, message: str, key: str = "mechanism.kind", where: str = "", others: str = ""
+) -> WrapDrive:
     """Return the drive of a case whose chain wraps the sprocket; a fault on others, with what to do."""
     if not isinstance(case.drive, WrapDrive):
-        raise CaseError([Fault(f"{message}: {instead_of(case)}", key, where or case.name)])
+        raise CaseError([Fault(f"{message}: {others or instead_of(case)}", key, where or case.name)])
     return case.drive

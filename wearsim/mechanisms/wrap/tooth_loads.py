@@ -28,9 +28,12 @@ class ToothLoads:
     warnings: tuple[str, ...]  # of the case
 
 
+_LOADS_OF_A_FLANK = "the loads of this flank are in flank.csv of wearsim life --out"
+
+
 def tooth_loads(case: Case, elongation: float = 0.0, phase: float | None = 1.0) -> ToothLoads:
     """Return what the teeth of a sprocket carry that a chain wraps."""
-    drive = wrap_drive(case, "'loads' needs a chain that wraps the sprocket")
+    drive = wrap_drive(case, "'loads' needs a chain that wraps the sprocket", others=_LOADS_OF_A_FLANK)
     mechanism = drive.rollers
     firsts = (0, 1) if drive.joint.alternating and elongation > 0.0 and phase is None else (0,)
     phases = [phase] if phase is not None else list(np.linspace(0.0, 1.0, drive.phases + 1))

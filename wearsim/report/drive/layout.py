@@ -25,20 +25,18 @@ def drive_forces(drive: DriveCase) -> LoopForces:
 
 
 def chain_speed(drive: DriveCase) -> float:
-    """Return the speed of the chain under the highest load [mm/s]."""
+    """Return the speed of the chain under the highest load [m/s]."""
     found = drive.driver.drive
-    rollers = 2.0 * math.pi / found.pitch_angle
-    return found.chain.pitch * rollers * found.heaviest.speed_rpm / 60.0
+    return found.rated_drive(drive.driver.case, found.heaviest).chain_speed
 
 
 def layout_json(drive: DriveCase) -> dict[str, Any]:
     """Return layout and forces of a drive as JSON."""
     forces, speed = drive_forces(drive), chain_speed(drive)
     loop = forces.loop
-    watts = 1e-3 * speed
     return {
         "links": drive.driver.drive.layout.links,
-        "chain_speed_m_per_s": 1e-3 * speed,
+        "chain_speed_m_per_s": speed,
         "sprockets": [
             {
                 "name": name,
@@ -51,7 +49,7 @@ def layout_json(drive: DriveCase) -> dict[str, Any]:
                 "shaft_load_N": float(forces.shaft_loads[i]),
                 "shaft_direction_deg": math.degrees(float(forces.shaft_directions[i])),
                 "torque_N_m": 1e-3 * float(forces.torques[i]),
-                "power_kW": 1e-3 * watts * float(forces.shaft_pulls[i]),
+                "power_kW": 1e-3 * speed * float(forces.shaft_pulls[i]),
             }
             for i, (name, wheel) in enumerate(zip(loop_names(drive), loop.wheels, strict=True))
         ],
@@ -66,7 +64,7 @@ def layout_json(drive: DriveCase) -> dict[str, Any]:
         ],
         "centrifugal_tension_N": forces.centrifugal,
         "efficiency": forces.efficiency,
-        "friction_heat_W": watts * float(forces.losses.sum()),
+        "friction_heat_W": speed * float(forces.losses.sum()),
     }
 
 

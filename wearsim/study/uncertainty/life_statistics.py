@@ -111,13 +111,27 @@ def uncertainty_warnings(answer: UncertaintyAnswer) -> list[str]:
         )
     if answer.crossed is not None:
         found += answer.crossed.differences_found
-    return found + _of_samples(answer.sound["warnings"])
+    told, keys = answer.study.scattered.case.warnings, [one.key for one in answer.study.scattered.scatters]
+    drawn = [f"{key} = " for key in keys if not any(text.startswith(f"{key} = ") for text in told)]
+    return found + _of_samples(answer.sound, tuple(drawn))
 
 
-def _of_samples(warnings: "pd.Series[str]") -> list[str]:
-    """Warnings of the samples, those that differ in their numbers only as one."""
-    counts = counts_by_kind(text for joined in warnings for text in filter(None, joined.split("\n")))
-    found = [f"{count} of {len(warnings)} samples, such as: {text}" for text, count in counts[:_MAX_KINDS]]
+def _of_samples(sound: pd.DataFrame, drawn: tuple[str, ...]) -> list[str]:
+    """Warnings of the samples, those that differ in their numbers only as one, with the first sample.
+
+    ``drawn``: how those begin that are about a value that was drawn, where the case's own has none.
+    """
+    texts = [
+        (text, index)
+        for index, joined in zip(sound["case_index"], sound["warnings"], strict=True)
+        for text in filter(None, joined.split("\n"))
+        if not text.startswith(drawn)
+    ]
+    counts, first = counts_by_kind(text for text, _ in texts), dict(reversed(texts))
+    found = [
+        f"{count} of {len(sound)} samples, such as case_index {first[text]}: {text}"
+        for text, count in counts[:_MAX_KINDS]
+    ]
     if len(counts) > _MAX_KINDS:
         found.append(f"and {len(counts) - _MAX_KINDS} other kinds of warnings, see cases.csv")
     return found
