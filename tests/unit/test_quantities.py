@@ -12,6 +12,7 @@ from pydantic import BaseModel
 
 import wearsim
 from tests.drives import STRAND, changed
+from tests.photographs import Camera, new_gap, picture, wheel
 from wearsim.cad.wheel_drawing import wheel_points
 from wearsim.case.keys import CaseTablesOrDrive
 from wearsim.case.keys.study_tables import Distribution
@@ -129,6 +130,13 @@ def catalogue_columns():
     yield "file"
 
 
+def scan_columns(path):
+    """Return the columns of both tables of a scan."""
+    picture(wheel([new_gap(12.7, 8.51, 12)] * 12), Camera(size=(400, 400))).save(path)
+    found = wearsim.scan(path, chain="08B")
+    return {*found.teeth, *found.gap}
+
+
 def prescribed_columns(folder):
     """Columns of a table of loads, from the messages about an empty one and a full one."""
     required = ("arc_length_mm", "load_per_width_N_per_mm", "flank_curvature_per_mm")
@@ -212,6 +220,7 @@ def written(tmp_path_factory):
         *catalogue_columns(),
         *study_columns(),
         *prescribed_columns(tmp_path_factory.mktemp("tables")),
+        *scan_columns(tmp_path_factory.mktemp("photograph") / "wheel.png"),
         *LOG_COLUMNS,
         *(
             name
