@@ -55,3 +55,15 @@ def test_all_flanks_of_a_figure_are_enlarged_alike(compared):
         factors.append(int(re.search(r"depth x (\d+)", texts)[1]))
     assert deepest[0] > 2.0 * deepest[1]
     assert factors[0] == factors[1]
+
+
+def test_a_sweep_of_wraps_has_the_lives_of_chain_and_sprocket(compared):
+    found = wearsim.sweep(
+        wearsim.load_case(WRAP), {"wear.specific_wear_rate_mm2_per_N": [1e-9], "sprocket.profile": ["iso606"]}
+    )
+    (row,) = found.cases.to_dict("records")
+    expected = compared[0].parts
+    assert row["chain_life_hours"] == row["life_hours"] == expected["chain"].hours
+    assert row["sprocket_life_hours"] == expected["sprocket"].hours
+    assert "| chain, h | sprocket, h |" in found.text
+    assert "sprocket_life_hours" in " ".join(found.summary()["warnings"])
