@@ -8,7 +8,7 @@ import wearsim
 from tests import drives
 from wearsim.report.chain_first import chain_first_of
 from wearsim.report.comparison import comparison_table, distinct_rows
-from wearsim.report.figures import flanks_figure
+from wearsim.report.figures import depth_figure, flanks_figure
 
 WRAP = drives.changed(drives.FAST_WRAP, {"stop": {"critical_depth_mm": 0.1}, "run": {"life_tolerance": 0.1}})
 
@@ -55,3 +55,24 @@ def test_all_flanks_of_a_figure_are_enlarged_alike(compared):
         factors.append(int(re.search(r"depth x (\d+)", texts)[1]))
     assert deepest[0] > 2.0 * deepest[1]
     assert factors[0] == factors[1]
+
+
+def test_a_sweep_of_wraps_has_the_lives_of_chain_and_sprocket(compared):
+    found = wearsim.sweep(
+        wearsim.load_case(WRAP), {"wear.specific_wear_rate_mm2_per_N": [1e-9], "sprocket.profile": ["iso606"]}
+    )
+    (row,) = found.cases.to_dict("records")
+    expected = compared[0].parts
+    assert row["chain_life_hours"] == row["life_hours"] == expected["chain"].hours
+    assert row["sprocket_life_hours"] == expected["sprocket"].hours
+    assert "| chain, h | sprocket, h |" in found.text
+    assert "sprocket_life_hours" in " ".join(found.summary()["warnings"])
+
+
+def test_pictures_say_on_which_teeth_and_why_a_depth_is_flat(compared):
+    (panel,) = compared[0].plot_loads().axes
+    assert panel.get_legend().get_title().get_text() == "on new teeth"
+    assert compared[0].history_columns["chain"][-1] > 1
+    assert "a new chain wears the teeth at other places first" in depth_figure(compared).axes[0].get_title(
+        "left"
+    )

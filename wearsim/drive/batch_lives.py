@@ -43,7 +43,7 @@ class CaseLife:
     # relative error of the life by its steps and its grid, as `simulate` states it, to rounding
     numerical_error: float
     warnings: tuple[str, ...]  # what is doubtful about the case and the worn flank
-    # lives of the parts of a whole drive; a cassette is one
+    # lives of the parts of a whole drive, a cassette is one; of a wrap those of chain and sprocket
     parts: Mapping[str, Life | LowerBound] = field(default_factory=dict)
 
 
@@ -264,4 +264,6 @@ def _alone(case: Case) -> CaseLife | WearsimError:
         return error
     by_fatigue = result.governing in result.fatigue
     stop = str(result.governing) if by_fatigue else result.stop
-    return CaseLife(case.name, result.earliest_life, stop, result.numerical_error, result.warnings)
+    return CaseLife(
+        case.name, result.earliest_life, stop, result.numerical_error, result.warnings, result.parts
+    )

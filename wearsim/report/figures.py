@@ -220,7 +220,14 @@ def depth_figure(results: list[WearResult]) -> Figure:
         panel.set_ylim(bottom=0.0)
         panel.grid(alpha=0.3)
     panels[-1].set_xlabel("running time, h")
-    title = "dot: limit of the sprocket reached; open arrow: run ends before it"
-    panels[0].set_title(title, fontsize=9, loc="left")
+    panels[0].set_title(_depth_caption(results), fontsize=9, loc="left")
     panels[0].legend(frameon=False, fontsize=8)
     return figure
+
+
+def _depth_caption(results: list[WearResult]) -> str:
+    """Return what marks and flat pieces of the depth over running time mean."""
+    text = "dot: limit of the sprocket reached; open arrow: run ends before it"
+    if any(result.history_columns.get("chain", np.ones(1))[-1] > 1 for result in results):
+        text += "\nflat: a new chain wears the teeth at other places first"
+    return text

@@ -82,7 +82,7 @@ def _draw_tooth_loads(panel: Axes, loads: Sequence[ToothLoads]) -> None:
     panel.set_xlabel("tooth, from the tight end")
     panel.set_ylabel("normal force, N")
     panel.grid(axis="y", alpha=0.3)
-    panel.legend(frameon=False, fontsize=8)
+    panel.legend(title="on new teeth", title_fontsize=8, frameon=False, fontsize=8)
 
 
 def _draw_flank_load(panel: Axes, result: WearResult) -> None:

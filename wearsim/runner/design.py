@@ -19,12 +19,11 @@ from wearsim.files import given_text
 from wearsim.input.document import Document
 from wearsim.input.giving_way import alternatives, remove
 from wearsim.input.keys import is_dict, schema_fields, schema_of
-from wearsim.input.mechanism_registry import MECHANISMS, WHOLE_DRIVE, mechanism_of
+from wearsim.input.mechanism_registry import MECHANISMS, WHOLE_DRIVE, MechanismEntry, mechanism_of
 from wearsim.input.table import is_number, without_numbers
 from wearsim.jit.compiled import source_hash
+from wearsim.result.ends import CHAIN, SPROCKET
 from wearsim.result.folder import FILE_KEYS, file_paths
-
-_WRAPS = MECHANISMS["wrap"], WHOLE_DRIVE
 
 FEW, SOME, MANY = 2, 25, 250
 """Cases of a shard: of wraps, which take seconds each, with contact fatigue, which run one by one,
@@ -59,10 +58,11 @@ class Design:
     # dotted keys that differ; entries of a list of tables by their numbers from 1
     keys: tuple[str, ...]
     rows: tuple[tuple[Any, ...], ...]  # values of the keys, a row for each case
+    lives: tuple[str, ...] = ()  # parts whose lives have columns of their own, of all cases
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Parts whose lives have columns of their own."""
+        """Parts of a whole drive."""
         return part_names(self.tables)
 
     def tables_of(self, index: int) -> dict[str, Any]:
@@ -90,12 +90,20 @@ class Design:
     @property
     def cases_per_shard(self) -> int:
         """Cases that are run and stored together."""
-        differs = {"mechanism.kind", "sprocket.profile"} & set(self.keys)
-        indices = range(len(self.rows) if differs else 1)
-        if any(mechanism_of(self.tables_of(index)) in _WRAPS for index in indices):
+        if self._has(WHOLE_DRIVE) or self._has(MECHANISMS["wrap"]):
             return FEW
         tables = {*self.tables, *(key.partition(".")[0] for key in self.keys)}
         return SOME if "fatigue" in tables else MANY
+
+    def with_lives(self) -> "Design":
+        """Return the same with the parts whose lives are told apart: of whole drives and of wraps."""
+        wrap = (CHAIN, SPROCKET) if self._has(MECHANISMS["wrap"]) else ()
+        return replace(self, lives=self.parts or wrap)
+
+    def _has(self, mechanism: MechanismEntry) -> bool:
+        differs = {"mechanism.kind", "sprocket.profile"} & set(self.keys)
+        indices = range(len(self.rows))[: None if differs else 1]
+        return any(mechanism_of(self.tables_of(index)) is mechanism for index in indices)
 
 
 def content_hash(content: Mapping[str, Any]) -> str:
@@ -186,7 +194,7 @@ def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]
         )
         for row in rows
     )
-    return Design(document.name, tables, files, tuple(keys), moved)
+    return Design(document.name, tables, files, tuple(keys), moved).with_lives()
 
 
 def _without(given: Mapping[str, Any], keys: Sequence[str]) -> Mapping[str, Any]:

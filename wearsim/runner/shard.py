@@ -58,7 +58,7 @@ class Shard:
 
 def life_columns(design: Design) -> tuple[str, ...]:
     """Return the columns with the lives of the parts of each case."""
-    return tuple(f"{name}_life_hours" for name in design.parts)
+    return tuple(f"{name}_life_hours" for name in design.lives)
 
 
 def shards(design: Design) -> Iterator[Shard]:
@@ -82,7 +82,7 @@ def run_shard(shard: Shard) -> Rows:
         failed = isinstance(case, WearsimError)
         found = case if failed else next(lives)
         digest = None if failed else _digest(case, shard)
-        values = (shard.first + index, *_row(found), digest, *_part_hours(found, shard.design.parts))
+        values = (shard.first + index, *_row(found), digest, *_part_hours(found, shard.design.lives))
         for name, value in zip(shard.columns, values, strict=True):
             rows[name].append(value)
     return rows

@@ -22,7 +22,7 @@ from wearsim.study.sweep.model import Sweep
 def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
     """Return a sweep as a Markdown table."""
     design = sweep.design
-    parts = zip(design.parts, life_columns(design), strict=True)
+    parts = zip(design.lives, life_columns(design), strict=True)
     columns: list[Column[Any]] = [
         *(Column("", itemgetter(key), key, _shown, missing="None") for key in design.keys),
         Column("", _life, "life, h"),
@@ -37,7 +37,7 @@ def sweep_caution(sweep: Sweep, table: pd.DataFrame) -> str:
     if sweep.design.parts or not any(map(is_of_form, sweep.design.keys)):
         return ""
     text = chain_first(table.loc[table["error"] == "", "stop"])
-    return text and f"{text}; wearsim life of a case gives the service life of its sprocket too"
+    return text and f"{text}; compare sprocket_life_hours instead"
 
 
 def sweep_warning(table: pd.DataFrame) -> str:

@@ -10,7 +10,6 @@ import pandas as pd
 from wearsim.geometry.profile_points import Vector
 from wearsim.quantities import percentile_shares
 from wearsim.report.text_lines import counts_by_kind
-from wearsim.runner.shard import life_columns
 from wearsim.study.uncertainty.cross_check import CrossCheck
 from wearsim.study.uncertainty.model import UncertaintyStudy
 from wearsim.study.uncertainty.percentiles import (
@@ -67,10 +66,9 @@ class UncertaintyAnswer:
     @property
     def medians(self) -> dict[str, float]:
         """Median life of every part of a whole drive; infinite where half of the runs did not reach it."""
-        columns = zip(self.study.design.parts, life_columns(self.study.design), strict=True)
         return {
-            name: float(np.quantile(self.sound[column].fillna(math.inf), 0.5, method="higher"))
-            for name, column in columns
+            name: float(np.quantile(self.sound[f"{name}_life_hours"].fillna(math.inf), 0.5, method="higher"))
+            for name in self.study.design.parts
         }
 
     @cached_property
