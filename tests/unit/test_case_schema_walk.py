@@ -14,6 +14,12 @@ from wearsim.report.flank_view import profile_table
 
 pytestmark = pytest.mark.wide
 
+DISTRIBUTION = (
+    *("distribution", "sigma_ln", "median", "low", "high", "standard_deviation", "mean", "mode", "shape"),
+    "scale",
+)
+"""Keys of the table of a key that scatters."""
+
 WITHOUT_EFFECT = {
     "title": "only shown above the answer",
     "drive.service_factor": "only the rating that check prints (test_cli_check_rating.py)",
@@ -44,7 +50,10 @@ WITHOUT_EFFECT = {
         f"lubrication.option.{key}": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)"
         for key in LubricantOption.model_fields
     },
-    "uncertainty": "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
+    **dict.fromkeys(
+        (f"uncertainty.{key}" for key in DISTRIBUTION),
+        "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
+    ),
     **{
         f"optimise.{key}": "only wearsim optimise (tests/cli/test_cli_optimise.py)"
         for key in (

@@ -19,6 +19,12 @@ from wearsim.mechanisms.gear_pair.keys import GearTables
 
 pytestmark = pytest.mark.wide
 
+DISTRIBUTION = (
+    *("distribution", "sigma_ln", "median", "low", "high", "standard_deviation", "mean", "mode", "shape"),
+    "scale",
+)
+"""Keys of the table of a key that scatters."""
+
 WITHOUT_EFFECT = {
     **{
         f"lubrication.{key}": "only wearsim lubricate (tests/cli/test_cli_lubricate.py)"
@@ -38,7 +44,10 @@ WITHOUT_EFFECT = {
         f"film.{key}": "only the film ratio (tests/verification/test_film_ratio.py)"
         for key in ("viscosity_mPa_s", "pressure_viscosity_per_GPa", "roughness_um")
     },
-    "uncertainty": "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
+    **dict.fromkeys(
+        (f"uncertainty.{key}" for key in DISTRIBUTION),
+        "only how sure a life is (tests/cli/test_cli_uncertainty.py)",
+    ),
     **{
         f"optimise.{key}": "only wearsim optimise (tests/cli/test_cli_optimise.py)"
         for key in (

@@ -108,7 +108,11 @@ def _findings(found: ScannedWheel) -> Iterator[Finding]:
     )
     yield Finding("Other flank", f"{max(depths.other_depth, 0.0):.3f} mm where it is deepest")
     yield Finding("New form", f"fits within {depths.misfit:.3f} mm where the wheel is not worn")
-    by = "the form of the teeth" if place.known is None else place.known.words
+    by = (
+        f"the form of the teeth, if their pitch is {wheel.pitch:g} mm: check it with --bore-mm or --scale"
+        if place.known is None
+        else place.known.words
+    )
     yield Finding("Scale", f"{place.scale:.4g} pixels per mm by {by}")
     yield Finding(
         "Picture",
