@@ -8,6 +8,7 @@ import wearsim
 from tests import drives
 from wearsim.report.chain_first import chain_first_of
 from wearsim.report.comparison import comparison_table, distinct_rows
+from wearsim.report.drive.report_page import gap_scenes
 from wearsim.report.figures import depth_figure, flanks_figure
 
 WRAP = drives.changed(drives.FAST_WRAP, {"stop": {"critical_depth_mm": 0.1}, "run": {"life_tolerance": 0.1}})
@@ -76,3 +77,11 @@ def test_pictures_say_on_which_teeth_and_why_a_depth_is_flat(compared):
     assert "a new chain wears the teeth at other places first" in depth_figure(compared).axes[0].get_title(
         "left"
     )
+
+
+def test_all_teeth_of_a_sheet_are_enlarged_alike(compared):
+    tables = drives.changed(WRAP, {"run.horizon_hours": 20})
+    little = wearsim.simulate(wearsim.load_case(tables))
+    assert little.max_depth < 0.5 * compared[0].max_depth
+    scenes = gap_scenes({"motor": compared[0], "pump": little}).values()
+    assert len({re.search(r"drawn (\d+) times", scene.alt)[1] for scene in scenes}) == 1

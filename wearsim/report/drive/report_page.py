@@ -1,5 +1,6 @@
 """The sheet of a whole drive as one page of HTML that fetches nothing and prints on A4."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -42,7 +43,7 @@ from wearsim.report.html.sketch import sketch
 from wearsim.report.rating import sheet_ratings
 from wearsim.report.text_lines import unbroken
 from wearsim.report.verification import given_rows, verification_rows
-from wearsim.report.worn_flank import around_flank, worn_flanks
+from wearsim.report.worn_flank import WornFlank, around_flank, worn_flanks
 from wearsim.result import WearResult
 from wearsim.result.ends import first_hours
 
@@ -175,8 +176,8 @@ def _page(found: DriveLife, head: SheetHead) -> SheetPage:
         plan_rule=plan.best.name,
         plan_goes_on=plan.goes_on,
         flanks=[
-            FlankPicture(flank_place(places.index(name) + 1), name, sketch(_flank(result)))
-            for name, result in found.results.items()
+            FlankPicture(flank_place(places.index(name) + 1), name, sketch(scene))
+            for name, scene in gap_scenes(found.results).items()
         ],
         warnings=found.warnings,
         assumptions=assumptions,
@@ -189,11 +190,16 @@ def _plan_until(plan: DrivePlan) -> str:
     return f"{grouped(end)} h, {what}"
 
 
-def _flank(result: WearResult) -> Scene:
-    """Return the flank of a sprocket, new and at the end of its own life."""
-    (flank,) = worn_flanks(result)
+def gap_scenes(results: Mapping[str, WearResult]) -> dict[str, Scene]:
+    """Return the flanks of the sprockets, new and at the end of their own lives, enlarged alike."""
+    flanks = {name: worn_flanks(result)[0] for name, result in results.items()}
+    factor = min((flank.factor for flank in flanks.values()), default=1)
+    return {name: _flank(results[name], flank, factor) for name, flank in flanks.items()}
+
+
+def _flank(result: WearResult, flank: WornFlank, factor: int) -> Scene:
     depth = flank.depth[-1]
-    between, new, worn, deepest = flank.strokes(flank.x[-1], flank.y[-1], depth, flank.factor)
+    between, new, worn, deepest = flank.strokes(flank.x[-1], flank.y[-1], depth, factor)
     room = _AROUND * flank.extent
     low, high = new.vertices.min(axis=0) - room, new.vertices.max(axis=0) + room
     box = float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1])
@@ -202,6 +208,6 @@ def _flank(result: WearResult) -> Scene:
     return Scene(
         box,
         (*around_flank(result, flank), between, new, worn, *spots),
-        f"A gap of the sprocket new and worn, {depth_text}, drawn {flank.factor} times as deep.",
-        (f"{depth_text} after {grouped(result.hours_run)} h", f"drawn {flank.factor} times as deep"),
+        f"A gap of the sprocket new and worn, {depth_text}, drawn {factor} times as deep.",
+        (unbroken(f"{depth_text} after {grouped(result.hours_run)} h"), f"drawn {factor} times as deep"),
     )
