@@ -160,7 +160,7 @@ def test_hardness_and_lubricant_give_the_condition() -> None:
         ),
         (
             {"wear": {"tooth_hardness": "hardened", "specific_wear_rate_mm2_per_N": 1e-9}},
-            "tooth_hardness: specific_wear_rate_mm2_per_N says how fast",
+            "tooth_hardness: specific_wear_rate_mm2_per_N already sets how fast",
         ),
     ],
 )
