@@ -506,7 +506,7 @@ class WrapDrive(Drive):
         loads = []
         for load in among:
             if load.pull > 0.0:
-                of = f"{load.tension:.4g} N at {load.speed_rpm:.4g} rpm" if len(among) > 1 else ""
+                of = f"{grouped(load.tension)} N at {load.speed_rpm:.4g} rpm" if len(among) > 1 else ""
                 loads.append((of, self.rated_drive(case, load)))
         return findings_by_load(loads, self.service_factor, self.joint_application_factor)
 
