@@ -38,6 +38,7 @@ from wearsim.mechanisms.wrap.chain_rating import (
     with_hours_over_duty,
     worst_findings,
 )
+from wearsim.quantities import grouped
 
 if TYPE_CHECKING:
     from wearsim.mechanisms.wrap.contact import WrapContact
