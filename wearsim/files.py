@@ -71,10 +71,7 @@ def check_free(path: Path, force: bool) -> None:
         path.resolve()
         taken = path.exists()
         file = next((parent for parent in path.parents if parent.is_file()), None)
-    except (
-        OSError,
-        RuntimeError,
-    ) as error:  # the latter of links that lead to one another, until Python 3.13
+    except (OSError, RuntimeError) as error:  # the latter of links in a loop, until Python 3.13
         reason = getattr(error, "strerror", None) or error
         raise OutputError(f"{path}: must be reachable: {reason}") from None
     if file is not None:

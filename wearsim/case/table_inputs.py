@@ -118,10 +118,8 @@ def _law(case: CaseRecord, table: WearTable) -> WearInput:
 def _doubtful_rate(case: CaseRecord, table: WearTable, rate: float) -> list[str]:
     """Return a warning of a specific wear rate that looks like one in another unit."""
     low, high = _PLAUSIBLE_WEAR_RATE
-    start, unit = (
-        f"wear.specific_wear_rate_mm2_per_N = {rate:g} is",
-        f"{rate:g} mm^3/(N*m) is {1e-3 * rate:g} mm2/N",
-    )
+    start = f"wear.specific_wear_rate_mm2_per_N = {rate:g} is"
+    unit = f"{rate:g} mm^3/(N*m) is {1e-3 * rate:g} mm2/N"
     if not low <= rate <= high:
         return [f"{start} outside {low:g}..{high:g}: {unit}, so check for a factor of 1000"]
     most = max(row.high for row in wear_conditions().values() if row.lubricated and row.machine == "any")

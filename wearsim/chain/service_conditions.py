@@ -151,6 +151,17 @@ def service_conditions(
     )
 
 
+def shifts_in_words(shifts: str) -> str:
+    """Return a number of shifts as one reads it.
+
+    Examples
+    --------
+    >>> shifts_in_words("one"), shifts_in_words("three")
+    ('one shift', 'three shifts')
+    """
+    return f"{shifts} {'shift' if shifts == 'one' else 'shifts'}"
+
+
 def shifts_of(hours_per_day: float) -> str:
     """Return in words the shifts in which a drive runs so many hours a day."""
     return next(shifts for most, shifts in SHIFTS if hours_per_day <= most)

@@ -245,10 +245,8 @@ def _life(case: Case, job: _CaseJob | None) -> CaseLife | WearsimError:
 def _half_width(task: WearTask[FlankContact], run: StartAndEnd) -> float:
     """Return the greatest half-width of the contact over the run [mm]."""
     contact, law = task.contact, task.law.unit_numbers(task.contact.kind)
-    work, state = (
-        np.empty((WORK_ROWS, contact.profile.x.size)),
-        np.stack([run.x[-1], run.y[-1], run.depth[-1]]),
-    )
+    work = np.empty((WORK_ROWS, contact.profile.x.size))
+    state = np.stack([run.x[-1], run.y[-1], run.depth[-1]])
     flank_rate(
         contact.kernel, state, state[DEPTH], contact.constants, contact.columns, contact.modulus, law, work
     )

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.catalogue.catalogues import chains, environments
-from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS, shifts_of
+from wearsim.chain.service_conditions import LUBRICATIONS, SHOCKS, shifts_in_words, shifts_of
 from wearsim.drive.known_drive import Values, is_plain, read_known, use_of
 from wearsim.errors import CaseError, Fault
 from wearsim.quantities import DAYS_OF_YEAR
@@ -104,7 +104,6 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
     case = drive.driver.case
     chain, driver, driven = (values[name] for name in ("chain", "driver", "driven"))
     iso, load = SHOCKS[values["shock"]]
-    shifts = shifts_of(values["hours_per_day"])
     return {
         "chain": chain,
         "driver": driver,
@@ -116,7 +115,7 @@ def _shown(values: Values, amounts: Mapping[str, str], drive: "DriveCase") -> di
         "gost_load": load,
         "gost_lubrication": LUBRICATIONS[use.lubrication],
         "lubrication_note": " (there is none for dry)" if values["lubrication"] == "dry" else "",
-        "shifts": f"{shifts} {'shift' if shifts == 'one' else 'shifts'}",
+        "shifts": shifts_in_words(shifts_of(values["hours_per_day"])),
         "use": use,
         "limit": _TOO_HARD if use.joint_application_factor > _MOST_JOINT_FACTOR else "",
         "power": amounts["power"],

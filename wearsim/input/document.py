@@ -17,7 +17,7 @@ from wearsim.errors import CaseError, Fault
 from wearsim.files import given_bytes
 from wearsim.input.column_files import with_column_files
 from wearsim.input.faults import Faults
-from wearsim.input.giving_way import alternatives, remove
+from wearsim.input.giving_way import remove_alternatives
 from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import plain_tables
 
@@ -70,15 +70,9 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
     for item in overrides:
         _override(data, item)
     if keys:
-        _remove_alternatives(data, keys)
+        remove_alternatives(data, keys)
     given = replace(given, tables=data)
     return Document(given.name, given.folder, retitled(data, given.written), faults, given)
-
-
-def _remove_alternatives(data: dict[str, Any], keys: Sequence[str]) -> None:
-    """Remove what cannot stand beside keys that were set."""
-    for other in alternatives(data, keys):
-        remove(data, other)
 
 
 def _given(source: str | Path | CaseText | Mapping[str, Any]) -> GivenInput:

@@ -37,6 +37,12 @@ def alternatives(tables: Mapping[str, Any], keys: Iterable[str]) -> list[str]:
     return [other for others in found for other in others if other not in keys]
 
 
+def remove_alternatives(tables: dict[str, Any], keys: Iterable[str]) -> None:
+    """Remove what cannot stand beside keys that are set."""
+    for other in alternatives(tables, keys):
+        remove(tables, other)
+
+
 def remove(tables: dict[str, Any], key: str) -> None:
     """Remove a key, and the table that then holds nothing."""
     head, _, rest = key.partition(".")

@@ -61,9 +61,8 @@ class ServiceTime:
     column: str  # one of `TIMES`
     hours_each: float  # running hours of a km or a day; 1 for hours
     start: date | None  # day on which the part that was measured was new; None where none is known
-    zero: float | None = (
-        None  # what an odometer or hour meter showed when the part was new [h]; None: not told
-    )
+    # what an odometer or hour meter showed when the part was new [h]; None where no row says it
+    zero: float | None = None
 
     def hours(self, text: str) -> float:
         """Return the running hours of a cell; nan where it holds no time.

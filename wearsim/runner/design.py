@@ -5,7 +5,7 @@ import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from pathlib import PurePath
 from typing import Any
 
@@ -17,13 +17,16 @@ from wearsim.drive.wheels import part_names
 from wearsim.errors import CaseError, Fault
 from wearsim.files import given_text
 from wearsim.input.document import Document
-from wearsim.input.giving_way import alternatives, remove
+from wearsim.input.giving_way import remove_alternatives
 from wearsim.input.keys import is_dict, schema_fields, schema_of
 from wearsim.input.mechanism_registry import MECHANISMS, WHOLE_DRIVE, MechanismEntry, mechanism_of
 from wearsim.input.table import is_number, without_numbers
 from wearsim.jit.compiled import source_hash
 from wearsim.result.ends import CHAIN, SPROCKET
 from wearsim.result.folder import FILE_KEYS, file_paths
+
+_OF_A_MECHANISM = ("mechanism.kind", "sprocket.profile")
+"""Keys that say which mechanism a case is about."""
 
 FEW, SOME, MANY = 2, 25, 250
 """Cases of a shard: of wraps, which take seconds each, with contact fatigue, which run one by one,
@@ -90,20 +93,22 @@ class Design:
     @property
     def cases_per_shard(self) -> int:
         """Cases that are run and stored together."""
-        if self._has(WHOLE_DRIVE) or self._has(MECHANISMS["wrap"]):
+        if self._mechanisms & {WHOLE_DRIVE, MECHANISMS["wrap"]}:
             return FEW
         tables = {*self.tables, *(key.partition(".")[0] for key in self.keys)}
         return SOME if "fatigue" in tables else MANY
 
     def with_lives(self) -> "Design":
         """Return the same with the parts whose lives are told apart: of whole drives and of wraps."""
-        wrap = (CHAIN, SPROCKET) if self._has(MECHANISMS["wrap"]) else ()
+        wrap = (CHAIN, SPROCKET) if MECHANISMS["wrap"] in self._mechanisms else ()
         return replace(self, lives=self.parts or wrap)
 
-    def _has(self, mechanism: MechanismEntry) -> bool:
-        differs = {"mechanism.kind", "sprocket.profile"} & set(self.keys)
-        indices = range(len(self.rows))[: None if differs else 1]
-        return any(mechanism_of(self.tables_of(index)) is mechanism for index in indices)
+    @cached_property
+    def _mechanisms(self) -> set[MechanismEntry]:
+        """Mechanisms of the cases; those of the same kind and profile have the same one."""
+        differs = [place for place, key in enumerate(self.keys) if key in _OF_A_MECHANISM]
+        cases = {tuple(str(row[place]) for place in differs): index for index, row in enumerate(self.rows)}
+        return {mechanism_of(self.tables_of(index)) for index in cases.values()}
 
 
 def content_hash(content: Mapping[str, Any]) -> str:
@@ -180,7 +185,8 @@ def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]
     """Return the cases of a study with the texts of all their files."""
     _check_keys(document, keys, file)
     files: dict[str, str] = {}
-    tables: Mapping[str, Any] = _without(document.data, alternatives(document.data, keys))
+    tables = copy.deepcopy(dict(document.data))
+    remove_alternatives(tables, keys)
     for path in file_paths(document.data):
         given = value_at(tables, ".".join(path))
         if isinstance(given, str):
@@ -195,14 +201,6 @@ def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]
         for row in rows
     )
     return Design(document.name, tables, files, tuple(keys), moved).with_lives()
-
-
-def _without(given: Mapping[str, Any], keys: Sequence[str]) -> Mapping[str, Any]:
-    """Return tables in which keys are not given."""
-    tables = copy.deepcopy(dict(given))
-    for key in keys:
-        remove(tables, key)
-    return tables
 
 
 def _check_keys(document: Document, keys: Sequence[str], file: str) -> None:

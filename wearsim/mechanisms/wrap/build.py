@@ -15,7 +15,7 @@ from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_w
 from wearsim.chain.joint_pressure import joint_application
 from wearsim.chain.joint_wear import JointLaw
 from wearsim.chain.loop_layout import LoopLayout
-from wearsim.chain.service_conditions import LUBRICATIONS, shifts_of
+from wearsim.chain.service_conditions import LUBRICATIONS, shifts_in_words, shifts_of
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
 from wearsim.geometry.blank import gap_space
@@ -37,7 +37,6 @@ SLIP_FRACTION = 0.1
 PHASES = 6
 _ONE_SHIFT = 8.0
 """Hours a day where a case gives none."""
-_SHIFTS = {"one": "one shift", "two": "two shifts", "three": "three shifts"}
 _OF_POWER = "it changes the power in the ratings, not the wear"
 _OF_PRESSURE = "it changes the joint pressure in the ratings, not the wear"
 
@@ -164,7 +163,7 @@ def _joint_application_factor(case: ChainRecord) -> float:
     if given is None:
         shifts = shifts_of((case.inputs.get("service") or {}).get("hours_per_day") or _ONE_SHIFT)
         factor = joint_application(lubrication=lubrication, shifts=shifts).factor
-        why = f"steady load, {lubrication} lubrication, {_SHIFTS[shifts]} a day; {_OF_PRESSURE}"
+        why = f"steady load, {lubrication} lubrication, {shifts_in_words(shifts)} a day; {_OF_PRESSURE}"
         case.take("drive.joint_application_factor", factor, why)
         return factor
     case.assumptions.append(f"joint application factor {given:g}: {_OF_PRESSURE}")

@@ -207,7 +207,7 @@ def _write_ratings(page: WorksheetPage, row: int, results: Sequence[WearResult])
         side = "least" if first.at_least else "most"
         _write_row(page, row + 1, name, first.unit, values, f"{name} by {'; '.join(rules)}")
         judged = [_verdict(finding, result) for finding, result in zip(chosen, results, strict=True)]
-        allowed, left = (f"{name}: the {side} that the rule allows", f"{name}: margin, below 0 outside")
+        allowed, left = f"{name}: the {side} that the rule allows", f"{name}: margin, below 0 outside"
         _write_row(page, row + 2, f"{name}, allowed", first.unit, limits, allowed)
         _write_row(page, row + 3, f"{name}, margin", first.unit, margins, left)
         _write_row(page, row + 4, f"{name}, verdict", "", judged, f"{name}: {_VERDICT}")

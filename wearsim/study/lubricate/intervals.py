@@ -4,6 +4,7 @@ import math
 import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -86,6 +87,7 @@ class RelubricationPolicy:
     cost: float | None
     cost_low: float | None
     cost_high: float | None
+    moved: float  # part by which lives of teeth may be off, which were run at another interval
 
 
 @dataclass(frozen=True)
@@ -161,6 +163,7 @@ class LubricationIntervals:
             cost=cost,
             cost_low=cost_low,
             cost_high=cost_high,
+            moved=moved,
         )
 
     def renewal_error(self, interval: float) -> float:
@@ -186,7 +189,11 @@ class LubricationIntervals:
         chains = [part.hours for part in self.parts if not part.on_chain]
         if interval == self.own or not chains or len(chains) == len(self.parts):
             return 0.0
-        return (self._ahead(interval) + (0.0 if self.own is None else self._ahead(self.own))) / min(chains)
+        return (self._ahead(interval) + self._ahead_at_own) / min(chains)
+
+    @cached_property
+    def _ahead_at_own(self) -> float:
+        return 0.0 if self.own is None else self._ahead(self.own)
 
     def _ahead(self, interval: float) -> float:
         """Return how much more than a new chain the teeth wear in an interval at most [h]."""

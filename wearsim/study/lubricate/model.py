@@ -70,8 +70,12 @@ class LubricantPlan:
     unknown: str  # why there is no cheapest interval, or no cost of a supply; empty where there is one
     gives_out: bool  # whether the lubricant gives out just beyond the cheapest interval
     missed: MissedRelubrication | None  # None where none is due
-    moved: float = 0.0  # part by which lives of teeth at other intervals may be off
     cost_without_oil: float | None = None  # per 1000 h, of a supply whose price alone is unknown
+
+    @property
+    def moved(self) -> float:
+        """Part by which lives of teeth at other intervals may be off."""
+        return 0.0 if self.supplied else max(policy.moved for policy in self.policies)
 
 
 @dataclass(frozen=True)
@@ -162,7 +166,6 @@ def lubricant_plan(drive: LubricatedDrive) -> LubricantPlan:
         unknown=unknown,
         gives_out=cheapest is not None and intervals.gives_out_beyond(cheapest),
         missed=missed,
-        moved=max(intervals.renewal_error(interval) for interval in shown),
     )
 
 
