@@ -50,7 +50,7 @@ def test_text(cli):
         "teeth 17 34",
         "tip radius, mm 42.7500 81.0000",
         "pressure angle at the tip, deg 39.3188 39.7872",
-        "thickness of the tip, mm 1.0242",
+        "tip thickness, mm 1.0242",
         "a pitch point 20.0000 0.0000 4.6770 -10.0853 7.2794 8.7215 8.7215",
         "b pitch point 20.0000 0.0000 -16.4111 5.6950",
         "ratio 1.0988 (0.5565 before the pitch point, 0.5423 after it); involute 1.5977",
@@ -233,7 +233,7 @@ def test_bad_input(cli, setting, code, message):
         (["convex_concave.addendum_ratio=0.8"], "the contact ratio is 0.9"),
         (
             ["convex_concave.dedendum_arc_radius_mm=20", "convex_concave.addendum_ratio=0.5"],
-            "(2) rho_1b < 0 does not hold up to the end of contact: the foot is convex beyond 20 deg",
+            "(2) rho_1b < 0 does not hold up to the end of contact: the dedendum is convex beyond 20 deg",
         ),
         (["gears.root_clearance_ratio=0"], "mm into the root of the pinion: raise"),
         (
