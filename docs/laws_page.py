@@ -1,4 +1,4 @@
-"""The page of the court of laws: what the tables of its tests are printed as.
+"""The page of the laws of wear: what the tables of its tests are printed as.
 
 The tests hand their tables over where pytest runs with ``--laws-page FILE``; see tests/conftest.py
 and the fixture ``judged`` of tests/laws. The text of each section is the docstring of its test.
@@ -16,7 +16,7 @@ HERE = Path(__file__).parent
 HEAD = HERE / "laws_head.md"
 TESTS = HERE.parent / "tests" / "laws" / "test_sets.py"
 
-SUMMARY = ("set", "fitted to; judged by", "take", "good enough", "off by")
+SUMMARY = ("set", "fitted to; judged by", "preferred law", "good enough", "off by")
 COLUMNS = ("law", "scatter", "behind the best", "in 50 %", "in 90 %", "off by", "")
 
 table = runpy.run_path(str(HERE / "measured_page.py"))["table"]
@@ -47,7 +47,7 @@ def cells(law: Mapping[str, Any]) -> list[str]:
         behind += f" ± {law['behind_error']:.2f}"
     off = "" if math.isnan(law["median_error"]) else f"{math.exp(law['median_error']):.2f}"
     shares = [percent(law["coverage_50"]), percent(law["coverage_90"])]
-    return [law["law"], law["scatter"], behind, *shares, off, "not told apart" if law["tied"] else ""]
+    return [law["law"], law["scatter"], behind, *shares, off, "tied" if law["tied"] else ""]
 
 
 def better_scatter(laws: Iterable[Mapping[str, Any]]) -> list[Mapping[str, Any]]:

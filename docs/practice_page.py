@@ -56,8 +56,8 @@ def summary(rows: list[Mapping[str, Any]]) -> str:
     middle = ratios[len(ratios) // 2]
     return (
         f"Engine over mean: {ratios[0]:.1f} to {ratios[-1]:.1f}, median {middle:.1f}, and within a factor of "
-        f"{WITHIN:g} on {near} of {len(rows)} drives. Single rules are a factor of {spread:.1f} off the mean "
-        "(root mean square)."
+        f"{WITHIN:g} on {near} of {len(rows)} drives. Single rules deviate from the mean by a factor of "
+        f"{spread:.1f} (root mean square)."
     )
 
 

@@ -18,7 +18,7 @@ SECTIONS = {
     "Strand: lives": ("test_reference_run", "test_reference_life_b9", "test_removed_area"),
     "Duty": ("test_duty_closed_form",),
     "Wrap: loads of the teeth": ("test_wrap_loads",),
-    "Wrap: a contact that stays and wears": ("test_half_space_contact", "test_resting_b4"),
+    "Wrap: a resting contact that wears": ("test_half_space_contact", "test_resting_b4"),
     "Elongation of the chain": ("test_elongation",),
     "Layout of a chain drive": ("test_drive_layout", "test_chain_loop", "test_loop_forces"),
     "Ratings of a chain drive": ("test_selection",),

@@ -50,21 +50,21 @@ def test_text(cli):
         "teeth 17 34",
         "tip radius, mm 42.7500 81.0000",
         "pressure angle at the tip, deg 39.3188 39.7872",
-        "thickness of the tip, mm 1.0242",
+        "tip thickness, mm 1.0242",
         "a pitch point 20.0000 0.0000 4.6770 -10.0853 7.2794 8.7215 8.7215",
         "b pitch point 20.0000 0.0000 -16.4111 5.6950",
         "ratio 1.0988 (0.5565 before the pitch point, 0.5423 after it); involute 1.5977",
         "radius 8.722 mm at the pitch point, as for the involute pair; best 35.5 mm at l = 6.616 mm",
-        "(2) rho_1b < 0 holds (arc of 10 mm, at the pitch point below 17.97 mm)",
-        "(5) rho_2b > 0 holds (with every arc)",
-        "arc of 16.1837 mm about (14.9012, -6.2686) mm, off by 0.0176 mm",
-        "pinion 7.776 foot 20.3320 39.7185 86.8741 86.8737",
-        "pinion 8 head 20.8222 39.9752 87.6094 87.6144",
+        "(2) rho_1b < 0 holds (arc radius 10 mm, limit at the pitch point 17.97 mm)",
+        "(5) rho_2b > 0 holds (for any arc)",
+        "arc of 16.1837 mm about (14.9012, -6.2686) mm, deviation at most 0.0176 mm",
+        "pinion 7.776 dedendum 20.3320 39.7185 86.8741 86.8737",
+        "pinion 8 addendum 20.8222 39.9752 87.6094 87.6144",
     ):
         assert part in words, part
     assert max(map(len, done.out.splitlines())) <= 100
     assert done.out in (ROOT / "docs" / "convex-concave.md").read_text()
-    assert done.err.count("lies below the tips of the pinion: a gauge does not reach it") == 2
+    assert done.err.count("lies below the tips of the pinion: a gauge cannot reach it") == 2
 
 
 def names(value):
@@ -233,7 +233,7 @@ def test_bad_input(cli, setting, code, message):
         (["convex_concave.addendum_ratio=0.8"], "the contact ratio is 0.9"),
         (
             ["convex_concave.dedendum_arc_radius_mm=20", "convex_concave.addendum_ratio=0.5"],
-            "(2) rho_1b < 0 does not hold up to the end of contact: the foot is convex beyond 20 deg",
+            "(2) rho_1b < 0 does not hold up to the end of contact: the dedendum is convex beyond 20 deg",
         ),
         (["gears.root_clearance_ratio=0"], "mm into the root of the pinion: raise"),
         (

@@ -27,8 +27,8 @@ def test_text(cli):
         "self-aligning run",
     ]
     assert "load.application_factor = 1\n" in cli("handbook", "face-load", CASE, "--explain").out
-    assert "fixed pinion: only 83% of the new face carry" in done.err
-    assert "what changes from mesh to mesh does not run in" in done.err
+    assert "fixed pinion: only 83% of the new face carries" in done.err
+    assert "misalignment that varies from mesh to mesh does not run in" in done.err
 
 
 def test_json_and_files_agree(cli, tmp_path):
@@ -77,7 +77,7 @@ def test_states_of_the_shipped_case_by_hand(cli):
 def test_what_turns_with_the_wheel(cli):
     done = cli("handbook", "face-load", CASE, "--set", "misalignment.varies_with=wheel")
     assert done.code == 0
-    assert "one that turns with a wheel in 10 210 h" in done.out.replace("\n             ", " ")
+    assert "misalignment that rotates with one gear in 10 210 h" in done.out.replace("\n             ", " ")
     assert "fixed pinion: not yet run in after 8 000 h" in done.err
 
 
@@ -85,7 +85,7 @@ def test_too_few_slices_are_told(cli):
     settings = ("--set", "pair.slices=20", "--set", "misalignment.fixed_misalignment_um=2000")
     done = cli("handbook", "face-load", CASE, *settings)
     assert done.code == 0
-    assert "slices carry the whole load, so K_Hbeta is rough: raise pair.slices" in done.err
+    assert "slices carry the load, so K_Hbeta is inaccurate: raise pair.slices" in done.err
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,7 @@ def test_answer_and_files(cli, table, tmp_path):
     done = cli("judge", table(*STRAIGHT), "--particles", "200", "--out", out)
     assert done.code == 0, done.err
     text = " ".join(done.out.split())
-    assert "18 in 3 series; 9 held out to judge by" in text
+    assert "18 in 3 series; 9 held out for scoring" in text
     assert "Verdict Archard is good enough" in text
     assert {path.name for path in out.iterdir()} >= {
         *("laws.csv", "constants.csv", "forecasts.csv", "summary.md", "judgement.png", "judgement.svg")
@@ -114,7 +114,7 @@ def test_picture_says_how_many_series_it_draws(table):
         assert len(legend.get_texts()) == 10
 
 
-def test_one_reading_tells_nothing_apart(cli, table):
+def test_one_reading_decides_nothing(cli, table):
     rows = ["a,1,1.0,0", "a,2,2.0,0", "a,3,3.1,0", "a,4,4.2,1"]
     done = cli("judge", table(*rows, head="series,cycles,wear_um,held_out"), "--particles", "100")
     assert "no law is good enough" in done.out
@@ -191,5 +191,7 @@ def test_bad_heads_are_named(cli, table, head, must):
 def test_too_few_readings_are_told(cli, table):
     done = cli("judge", table("a,1,2", "b,2,3"))
     assert done.code == 2
-    assert "none held out: add later readings" in done.err and "at least 3 readings to fit" in done.err
+    assert (
+        "for scoring, has none: add later readings" in done.err and "at least 3 readings to fit" in done.err
+    )
     assert json.loads(cli("judge", table("a,1,2"), "--json").out)["error"]["kind"] == "CaseError"

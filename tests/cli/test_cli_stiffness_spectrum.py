@@ -16,7 +16,7 @@ def test_shipped_case_as_text(cli):
     assert (done.code, done.err) == (0, "")
     assert max(map(len, done.out.splitlines())) <= 100
     assert "ratio 1.60518; mean 1.60325 contacts; model pairs" in done.out
-    assert "3 turns of the pinion, 2 of the wheel, 60 meshes" in done.out
+    assert "3 revolutions of the pinion, 2 of the wheel, 60 meshes" in done.out
     assert "fz = 500 Hz; f1 = 25 Hz, f2 = 16.667 Hz" in done.out
     (line,) = [line for line in done.out.splitlines() if line.startswith("fz  ")]
     assert line.split() == ["fz", "1.00000", "500.00", "3.0170e-01", "6.0340e-01", "3.289e+04"]

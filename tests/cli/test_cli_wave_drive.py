@@ -33,7 +33,7 @@ def test_text(cli):
     explained = cli("handbook", "wave-drive", CASE, "--explain").out
     assert "defaults: pressure.load_nonuniformity = 1.5" in " ".join(explained.split())
     assert "the methods differ by a factor of 1.82" in done.err
-    assert "rim_bending: 1 % of endurance_limit_MPa moves the diameter by 3.2 %" in done.err
+    assert "rim_bending: 1 % of endurance_limit_MPa changes the diameter by 3.2 %" in done.err
     assert cli("handbook", "wave-drive", CASE, "-q").err == ""
 
 

@@ -273,7 +273,7 @@ def test_judge(answer, tmp_path):
     for given in (path, str(path), rows, pd.DataFrame(rows)):
         found = wearsim.judge(given, particles=200, progress=done.append)
         assert found.summary() == expected
-    assert found.headline == "Archard is good enough: its bands hold what they should"
+    assert found.headline == "Archard is good enough: its bands hold the expected share of readings"
     assert list(found.laws["score"]) == [law["score"] for law in expected["laws"]]
     assert (found.forecasts["held_out"].sum(), found.forecasts["wear"].max()) == (9, 18.0)
     assert set(found.constants["law"]) == set(found.laws["law"])

@@ -1,17 +1,17 @@
 """V8: plastic with carbon fibres at three loads
 
-Loss of mass over 1000 m of sliding, four contents of nanotubes
-([carbon_fibre_plastic.csv](../tests/validation/data/carbon_fibre_plastic.csv)). The engine runs an
-even contact given by a table (`mechanism.kind = "prescribed"`); the area and the density are not
-stated, only the coefficient over them is identified.
+Mass loss over 1000 m of sliding, four contents of nanotubes
+([carbon_fibre_plastic.csv](../tests/validation/data/carbon_fibre_plastic.csv)). The engine runs a
+uniform contact given by a table (`mechanism.kind = "prescribed"`). Area and density are not
+stated, so only the coefficient divided by them is identified.
 
-Calibrated at 10 N, the slope from 200 to 1000 m of each content. Predicts the slopes at 20 and 30
+Calibrated at 10 N: the slope from 200 to 1000 m for each content. It predicts the slopes at 20 and 30
 N, twice and three times as high. A factor of 2 is allowed, as for the pins.
 
-What fails: one slope of eight, which grew by 23 % where three times was predicted. All four at 20 N
-grew by 10 to 38 % instead of to the double: they pass by the width of the factor only.
+Failure: one slope of eight, which grew by 23 % where three times was predicted. All four at 20 N
+grew by 10 to 38 % instead of doubling: they pass only because the factor is wide.
 
-It cannot show: an absolute coefficient, a distribution of pressure, anything of steel or oil; the
+Not shown: an absolute coefficient, a distribution of pressure, anything about steel or oil; the
 readings have no repeats.
 """
 

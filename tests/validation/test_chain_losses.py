@@ -1,23 +1,23 @@
 """V11: efficiency of bicycle chains
 
 Three cogs at four powers
-([chain_efficiency.csv](../tests/validation/data/chain_efficiency.csv)), second hand, without
-chainring, cadence and lubricant. The engine knows one loss, the friction of pin in bush where the
-chain meets and leaves a sprocket; its drive has a ring of 44 teeth at 75 rpm, 112 links, 10 N in the
-slack span (all assumed) and 0.11, its default for a joint.
+([chain_efficiency.csv](../tests/validation/data/chain_efficiency.csv)), from a secondary source that
+omits chainring, cadence and lubricant. The engine includes one loss: the friction between pin and bush
+where the chain enters and leaves a sprocket. Its drive has a chainring of 44 teeth at 75 rpm, 112
+links, 10 N in the slack span (all assumed) and the default joint friction of 0.11.
 
-Predicts the order: more is lost with fewer teeth and, in parts, with less power. Losses within a
-factor of 2 were allowed; this factor was set when figures of other drives were known, not before.
+It predicts the order: the relative loss is higher with fewer teeth and with less power. A factor of 2
+was allowed for the losses; this factor was set when figures of other drives were known, not before.
 
-What fails: the size. The friction of joints is a quarter to a third of the loss at 200 W, and less
-of it at lower power, where most of the loss does not grow with the pull: derailleur, side plates
-and drag of the oil are not in the engine. The table does not put 24 teeth above 19 either. Dry
-joints are predicted with 0.42, a handbook's value for dry steel that slides (handbooks range from
-0.1 to 0.62): they lose half of what is said. They would need 0.7 to 0.8, beyond that range, so
-something besides the joints rubs.
+Failures: the size. The friction of the joints is a quarter to a third of the loss at 200 W, and less
+at lower power, where most of the loss does not grow with the tension: derailleur, side plates
+and drag of the oil are not in the engine. Nor does the table rank 24 teeth above 19. Dry
+joints are predicted with 0.42, a handbook value for sliding dry steel (handbooks range from
+0.1 to 0.62): they lose half of the stated amount. They would need 0.7 to 0.8, beyond that range, so
+there must be friction besides that of the joints.
 
-It cannot show: which friction a joint has. As no source measures that of chains by lubricant,
-[lubrication] sets wear and not friction; `drive.joint_friction` is yours to give.
+Not shown: the friction of a joint. As no source gives measured joint friction by lubricant,
+[lubrication] sets wear and not friction; set `drive.joint_friction` yourself.
 """
 
 import functools
@@ -67,7 +67,7 @@ def test_order_of_loads(read, measured):
         sum(table(cog, more) > table(cog, less) for cog in (24, 19, 13) for less, more in pairwise(LOADS))
         for table in (efficiency, lambda cog, load: read[cog, load])
     ]
-    measured("steps to the next power at which the efficiency rises, of 9", *rises, ("within", 0), "passed")
+    measured("steps to the next power with rising efficiency, of 9", *rises, ("within", 0), "passed")
 
 
 def test_order_of_teeth(read, measured):
@@ -75,7 +75,7 @@ def test_order_of_teeth(read, measured):
         sum(table(13, load) < table(cog, load) for cog in (24, 19) for load in LOADS)
         for table in (efficiency, lambda cog, load: read[cog, load])
     ]
-    measured("times that 13 teeth lose more than 19 or 24, of 8", *lower, ("within", 0), "passed")
+    measured("cases with more loss at 13 teeth than at 19 or 24, of 8", *lower, ("within", 0), "passed")
 
 
 def test_24_teeth_over_19(read, measured):
@@ -83,7 +83,7 @@ def test_24_teeth_over_19(read, measured):
         sum(table(19, load) < table(24, load) for load in LOADS)
         for table in (efficiency, lambda cog, load: read[cog, load])
     ]
-    measured("times that 19 teeth lose more than 24, of 4", *lower, ("within", 0), "failed")
+    measured("cases with more loss at 19 teeth than at 24, of 4", *lower, ("within", 0), "failed")
 
 
 @pytest.mark.parametrize("cog", [24, 19, 13])
@@ -111,7 +111,7 @@ def test_losses_fall_with_power(read, measured, cog):
 
 def test_a_dry_chain_loses_more(measured):
     measured(
-        "more lost by a dry chain at 200 W, 19 teeth, joints of 0.42",
+        "additional loss of a dry chain at 200 W, 19 teeth, joint friction 0.42",
         efficiency(19, 200) - efficiency(19, 200, 0.42),
         "4 to 5 %",
         ("range", (4, 5)),

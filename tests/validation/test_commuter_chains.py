@@ -1,28 +1,28 @@
 """V2: three chains of a commuter's bicycle
 
-Two chains used in turn on one drive, and a third with two rainy stretches, read with a caliper
+Two chains used in turn on one drive, and a third with two rainy periods, measured with a caliper
 between the rollers over 11 pitches
 ([commuter_chains.csv](../tests/validation/data/commuter_chains.csv)). The engine runs the shipped
-case `bicycle-17t-road` (50/17 teeth, 200 W at 33 km/h, 210 N in the chain: all assumed, the source
-states neither teeth nor power).
+case `bicycle-17t-road` (50/17 teeth, 200 W at 33 km/h, 210 N chain tension: all assumed, as the
+source states neither teeth nor power).
 
-Calibrated on the six readings of Shimano and KMC up to 3250 km: the length of a new chain (not
-stated either) and one coefficient of the joints, both by one straight line. Predicts the four
-readings from 3750 km on. Then one factor for wet, from Miche between 2350 and 2850 km, predicts
+Calibrated on the six readings of Shimano and KMC up to 3250 km: one straight line gives the length
+of a new chain (not stated either) and one coefficient of the joints. It predicts the four readings
+from 3750 km on. Then one factor for wet, from Miche between 2350 and 2850 km, predicts
 Miche between 3250 and 4000 km.
 
-What fails: three of the four readings lie 0.2 to 0.3 mm above the line. A drive in all weathers has
-no constant coefficient: 0.24 mm in 1000 km up to 3250 km became 0.4 (KMC) and 0.8 (Shimano, salt is
-noted) after. One line through all ten readings, 0.32 mm in 1000 km, would pass; it would be no
-prediction.
+Failures: three of the four readings lie 0.2 to 0.3 mm above the line. A drive used in all weathers
+has no constant coefficient: 0.24 mm per 1000 km up to 3250 km became 0.4 (KMC) and 0.8 (Shimano,
+salt is noted) later. One line through all ten readings, 0.32 mm per 1000 km, would pass, but would
+not be a prediction.
 
-The last row wears one cog of 17 teeth, its coefficient that of the joints and the spring of the
-derailleur 10 N (both assumed), the chain replaced at 1 %; the run ends at 13 100 km.
+The last row wears one cog of 17 teeth with the coefficient of the joints and 10 N from the spring of
+the derailleur (both assumed); the chain is replaced at 1 %, and the run ends at 13 100 km.
 
-It cannot show: a coefficient of the joints, since teeth and tension stand only in a product with
-it, and the reading also holds the play of the rollers (the rate is an upper bound); any effect of
+Not shown: a coefficient of the joints, since teeth and tension occur only in a product with it, and
+the reading includes the clearance of the rollers (the rate is an upper bound); any effect of
 teeth or power; running-in, as no reading is below 1200 km; wear of teeth. Between its two rainy
-stretches Miche read no growth in 400 km: the factor for wet is one of weeks.
+periods Miche showed no growth in 400 km: the factor for wet is an average over weeks.
 """
 
 import pytest
@@ -81,7 +81,7 @@ def rate(table, chain, start, end):
 def test_wet_stretch(data, wet_factor, commuter, grown, span, measured):
     after = grown(wet_factor * commuter.coefficient, 1000.0).at(1000.0)
     measured(
-        "Miche in the rain from 3250 to 4000 km, growth in 1000 km",
+        "Miche in the rain from 3250 to 4000 km, growth per 1000 km",
         span(11, after) - span(11, 0.0),
         rate(data("commuter_chains"), "Miche", 3250, 4000),
         ("within", 0.3),

@@ -1,23 +1,23 @@
 """V6: bands of the growth of bicycle chains
 
-13 end points of as many riders, elongation after a distance
-([chain_lives.csv](../tests/validation/data/chain_lives.csv)). The fastest grew 88 times as fast as
-the slowest; agreement with one of them would prove nothing. The engine runs `bicycle-17t-road`
-(50/17 teeth, 210 N in the chain, 33 km/h, all assumed).
+13 end points from 13 riders: elongation after a distance
+([chain_lives.csv](../tests/validation/data/chain_lives.csv)). The fastest chain grew 88 times as fast
+as the slowest; agreement with one of them would prove nothing. The engine runs `bicycle-17t-road`
+(50/17 teeth, 210 N chain tension, 33 km/h, all assumed).
 
-Nothing of the list is calibrated on. The widest band is that of the catalogue's wear conditions in
-the joints, from the low end of `hardened, oiled` to the high end of `soil-contaminated`; then bands
-by V2: its coefficient and, gritty, that times its factor for wet, each with a factor of 3 up and
-down. For the chain in a closed case (40/16 teeth, 200 rpm of the hub's sprocket, 200 W at 25 km/h,
-295 N in the chain, 108 links: assumed) the coefficient of V2 predicts the elongation at the
-distance of its reading; a factor of 2 is allowed.
+None of these data are used for calibration. The widest band covers the wear conditions of the
+catalogue for joints, from the low end of `hardened, oiled` to the high end of `soil-contaminated`.
+The bands by V2 use its coefficient and, for gritty conditions, that coefficient times its factor for
+wet, each with a factor of 3 up and down. For the chain in a closed case (40/16 teeth, hub sprocket at
+200 rpm, 200 W at 25 km/h, 295 N chain tension, 108 links: assumed) the coefficient of V2 predicts the
+elongation at the distance of its reading; a factor of 2 is allowed.
 
-What fails: one row lies outside the catalogue's band, touring in sand, which asks for 1.4 times the
-highest coefficient of the table at the assumed tension; and four lie below the bands by V2, chains
-that grew less than a third as fast as the commuter's.
+Failures: one row lies outside the band of the catalogue: touring in sand, which needs 1.4 times the
+highest coefficient of the table at the assumed tension. Four rows lie below the bands by V2: these
+chains grew less than a third as fast as the commuter's chains.
 
-It cannot show: that a prediction for one drive is right within less than the band; the factor of 2
-of the closed case rests on assumed teeth and power, whose effect is as large.
+Not shown: that a prediction for a single drive is more accurate than the band; the factor of 2
+for the closed case rests on assumed teeth and power, whose effect is as large.
 """
 
 import pytest

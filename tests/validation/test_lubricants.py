@@ -1,33 +1,34 @@
 """V10: bicycle chains with 67 lubricants
 
-Growth of chains on one rig in six blocks of 1000 km, clean, dust, clean, wet, clean, wet with mud
+Elongation of chains on one rig in six blocks of 1000 km, clean, dust, clean, wet, clean, wet with mud
 ([lubricant_blocks.csv](../tests/validation/data/lubricant_blocks.csv)), and the distance that one
 application lasts
 ([lubricant_single_application.csv](../tests/validation/data/lubricant_single_application.csv)).
 The engine runs `bicycle-17t-road` on the rig's conditions (250 W at 100 rpm, 50/22 teeth: assumed)
-with its law of lubrication; a test holds the blocks of the case against the closed form that the
-fit uses. Growth is in parts of the allowance, 0.5 %.
+with its law of lubrication; a test compares the blocks of the case with the closed form used by the
+fit. Elongation is given as a fraction of the allowance, 0.5 %.
 
-Coefficients (clean, what dust, wet and mud add, the part of it that a relubrication takes away,
-running-in) scatter about those of their category, and a block about what the law gives, with heavy
-tails. All is drawn from the readings; a reading of 0 is one below half a step of 1/350. Chains left
-the test for what had been read before, so a likelihood of what was read needs no more. *In their
-band* are readings of lubricants whose later blocks, or whose allowances, were left out: predicted
-from their own earlier blocks and from the other lubricants. 80 to 97 % may be in bands of 90 %, 35
-to 65 % in those of 50 %.
+Coefficients (clean; the additions by dust, wet and mud; the fraction of these that a relubrication
+removes; running-in) scatter about those of their category. A block scatters about the law with heavy
+tails. All are drawn from the readings; a reading of 0 means less than half a step of 1/350. Chains
+left the test because of earlier readings, so the likelihood needs no correction for them. *In their
+band* counts readings of lubricants whose later blocks, or whose allowances, were left out: they are
+predicted from their own earlier blocks and from the other lubricants. 80 to 97 % may be in 90 % bands,
+35 to 65 % in 50 % bands.
 
-Calibrated on the open readings; blocks 5 and 6 of 14 lubricants and 37 distances are withheld, and
-their forecast (`reports/reference/forecast_lubricants.md`) waits for them.
+Calibrated on the open readings. Blocks 5 and 6 of 14 lubricants and 37 distances are withheld. They
+will be compared with their forecast (`reports/reference/forecast_lubricants.md`).
 
-What fails: bands of block 3 are too narrow, of 58 readings some 45 are in those of 90 %, and those of
-block 4 too wide. Oils grow faster in the clean block after dust than in dust, which no part removed
-by a relubrication can give: what dirt leaves behind is more than dirt. And the knee is not what
-the readings of one application show: of 12 lubricants 7 have allowance and jump at one distance,
-with a mean growth to there many times that of the clean block, so they fade before it.
+Failures: the bands of block 3 are too narrow (some 45 of 58 readings are in the 90 % bands), those of
+block 4 too wide. With oils, chains grow faster in the clean block after dust than in dust, which no
+fraction removed by a relubrication can give: the after-effect of dirt exceeds its direct effect. And
+the readings of one application do not show the assumed knee: for 7 of 12 lubricants allowance and
+jump are at the same distance, with a mean growth up to there many times that of the clean block.
+These lubricants fade before the jump.
 
-It cannot show: a coefficient, since it stands in a product with the assumed teeth; an effect of
-teeth, tension or speed; running-in apart from the first 1000 km; wear of teeth; how the lubricant
-fades, as blocks relubricate before it does.
+Not shown: a coefficient, since it occurs in a product with the assumed teeth; an effect of
+teeth, tension or speed; running-in, except in the first 1000 km; wear of teeth; how the lubricant
+fades, as it is renewed before that in the blocks.
 """
 
 import numpy as np
@@ -144,7 +145,7 @@ def held(forecast, table, fitted):
 def in_bands(found, column, share, limits, what, verdict, measured):
     number = len(found)
     measured(
-        f"{what}: readings of {number} in their band of {share} %",
+        f"{what}: readings of {number} in their {share} % band",
         found[column].sum(),
         f"{0.01 * share * number:.1f} expected",
         ("range", (np.ceil(limits[0] * number), np.floor(limits[1] * number))),
@@ -236,7 +237,7 @@ def test_knee_of_one_application(forecast, table, fitted, measured):
     knee = left > 0
     after = 1000.0 * (1.0 - lubricated * road.road_jump_km)[knee] / left[knee]
     measured(
-        "growth in 1000 km after the jump, median",
+        "growth per 1000 km after the jump, median",
         0.903,
         np.median(after),
         ("factor", 2),

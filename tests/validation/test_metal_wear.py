@@ -1,30 +1,30 @@
 """V1: wear of metal specimens at three loads
 
-12 specimens, 4 at each of 10, 50 and 100 g, each read at 8 counts of cycles from 2 to 500
-([metal_wear.csv](../tests/validation/data/metal_wear.csv)). The logarithm of the reading is taken
-to be a straight line in those of load and cycles, each specimen off it by a factor that stays: the
-log-normal scatter of `wearsim uncertainty`. Only law and statistics are tested; but for two rows
-the engine does not run.
+12 specimens, 4 each at 10, 50 and 100 g, measured at 8 numbers of cycles from 2 to 500
+([metal_wear.csv](../tests/validation/data/metal_wear.csv)). The logarithm of the reading is assumed
+to be linear in the logarithms of load and cycles, with a constant factor for each specimen: the
+log-normal scatter of `wearsim uncertainty`. Only the law and the statistics are tested; the engine
+runs in two rows only.
 
-Calibrated on 10 and 100 g, predicts 50 g; calibrated on all readings up to 50 cycles, predicts
-those at 100, 200 and 500. The band of the population is 90 % of all specimens of the load; that of
-the known specimen has its own factor from its first 5 readings. The engine, with Archard's constant
+Calibrated on 10 and 100 g, it predicts 50 g; calibrated on all readings up to 50 cycles, it predicts
+those at 100, 200 and 500. The population band covers 90 % of all specimens at one load; the band of
+a known specimen uses its own factor from its first 5 readings. The engine, with Archard's constant
 coefficient, is calibrated at 10 g and 50 cycles.
 
-What fails: at 50 g the wear grows more slowly than at the other two loads (exponents 0.168 against
-0.20), so the prediction runs away from it beyond 100 cycles. Bands are too narrow, 8 to 10 of 12
-specimens where 10.8 are expected: those of one load drift away together, and specimen 105 falls
-behind, which a factor that stays does not hold. And no constant coefficient gives a wear that slows
-down like this, in whatever geometry (Archard: cycles to the power 1 as a depth, 1/3 as width of a
-cylinder's scar, 1/4 of a ball's; load likewise).
+Failures: at 50 g the wear grows more slowly than at the other two loads (exponents 0.168 against
+0.20), so the prediction is too high beyond 100 cycles. Bands are too narrow, with 8 to 10 of 12
+specimens where 10.8 are expected: specimens at one load drift together, and specimen 105 falls
+behind, which a constant factor cannot describe. No constant coefficient gives wear that slows
+down like this in any geometry (Archard: cycles to the power 1 for a depth, 1/3 for the scar width
+of a cylinder, 1/4 for that of a ball; load likewise).
 
-The rows of the *law of powers* are no engine's: load and cycles to fitted powers, about 0.65 and
-0.19, each specimen with a factor that wanders, as `wearsim judge` fits it ([which law](laws.md)). It
-is fitted up to 50 cycles, or to 10 and 50 g. Its means keep what the engine's miss. Its bands hold 10 or 11
-of 12, at 200 and 500 cycles each with one specimen only 0.2 % within its edge: just enough.
+The rows *power law* do not use the engine: load and cycles have fitted powers, about 0.65 and
+0.19, each specimen has a drifting factor, as fitted by `wearsim judge` ([which law](laws.md)). The
+law is fitted up to 50 cycles, or to 10 and 50 g. Its means pass where those of the engine fail. Its
+bands hold 10 or 11 of 12; at 200 and 500 cycles one specimen is only 0.2 % inside the edge.
 
-It cannot show: anything of a chain or a tooth, nor a coefficient: geometry, materials and the
-meaning of the reading (depth or width) are not known.
+Not shown: anything about a chain or a tooth, or a coefficient: geometry, materials and the
+meaning of the reading (depth or width) are unknown.
 """
 
 import numpy as np
@@ -91,7 +91,7 @@ def test_later_wear_of_the_load_furthest_off(wear, measured, cycles):
     means = late.assign(predicted=predicted).groupby("load_g")[["predicted", "wear_um"]].mean()
     load = (means.predicted / means.wear_um - 1.0).abs().idxmax()
     measured(
-        f"mean of {load} g after {cycles} cycles from those up to 50, the load furthest off",
+        f"mean of {load} g after {cycles} cycles from those up to 50, largest deviation of the loads",
         float(means.predicted[load]),
         float(means.wear_um[load]),
         ("percent", 15),
@@ -127,7 +127,7 @@ def test_band_of_known_specimens(wear, measured, cycles, verdict):
     half = stats.t.ppf(0.95, free) * sd * np.sqrt(1.0 + 1.0 / 5.0 + away**2 / spread)
     found = wear[wear.cycles == cycles].set_index("specimen").log
     measured(
-        f"specimens of 12 in their own band of 90 % after {cycles} cycles",
+        f"specimens of 12 in their own 90 % band after {cycles} cycles",
         0.9 * 12,
         float((np.abs(found - at_mean - slope * away) <= half).sum()),
         ("found", (10, 12)),
@@ -146,7 +146,7 @@ def test_band_of_the_population(wear, measured, cycles, verdict):
     median = [law(constants, load, cycles) for load in found.load_g]
     low, high = np.array([quantile(scatter, value)(np.array([0.05, 0.95])) for value in median]).T
     measured(
-        f"specimens of 12 in the band of 90 % of the population after {cycles} cycles",
+        f"specimens of 12 in the 90 % band of the population after {cycles} cycles",
         0.9 * 12,
         float(((low <= found.wear_um) & (found.wear_um <= high)).sum()),
         ("found", (10, 12)),
@@ -219,7 +219,7 @@ def test_law_of_powers(wear, from_early, measured, load, cycles):
     found = from_early if cycles > 50 else law_of_powers(wear, lambda one: one.load_g == 100, 400)
     own = found[(found.load_g == load) & (found.cycles == cycles)]
     measured(
-        f"law of powers, not the engine: {load} g, {cycles} cycles",
+        f"power law, not the engine: {load} g, {cycles} cycles",
         float(own.middle.mean()),
         float(own.wear_um.mean()),
         ("percent", 15),
@@ -233,10 +233,10 @@ def test_law_of_powers(wear, from_early, measured, load, cycles):
 def test_band_of_known_specimens_that_wander(from_early, measured, cycles):
     own = from_early[from_early.cycles == cycles]
     measured(
-        f"law of powers, not the engine: specimens of 12 in their own band of 90 % after {cycles} cycles",
+        f"power law, not the engine: specimens of 12 in their own 90 % band after {cycles} cycles",
         0.9 * 12,
         float(((own.low <= own.wear_um) & (own.wear_um <= own.high)).sum()),
         ("found", (10, 12)),
         "passed",
-        scatter="factors that wander",
+        scatter="drifting factors",
     )

@@ -1,20 +1,20 @@
 """V3: which pitches grow
 
-Two chains, new and worn, between the rollers over 11 and over 10 pitches
+Two chains, new and worn, measured between the rollers over 11 and over 10 pitches
 ([odd_and_even_spans.csv](../tests/validation/data/odd_and_even_spans.csv)). Joint wear lengthens
-only the outer links: the rollers sit on bushes that the inner links hold. The engine gives the
-pitches of both links at an elongation.
+only the outer links: the rollers turn on bushes, which are fixed in the inner links. The engine gives
+the pitches of both links at a given elongation.
 
-Calibrated on the growth over 10 pitches, predicts by how much 11 pitches grow more: nothing where
-the span begins and ends in an inner link, two joints' wear where in outer ones. Where it began is
-not stated. The rival is `joint.pitch = "uniform"`. What the play of the rollers adds falls out of
-the difference. More than 0.1 mm is not allowed.
+Calibrated on the growth over 10 pitches, it predicts how much more 11 pitches grow: nothing if the
+span begins and ends with an inner link, the wear of two joints if with outer links. The source does
+not state which. The alternative is `joint.pitch = "uniform"`. The clearance of the rollers cancels
+in the difference. More than 0.1 mm is not allowed.
 
-What fails: a span that begins in an outer link, on both chains, and the rival on one. That supports
-the pattern which the engine has by default, if the spans began in inner links; weakly, as the
-caliper reads 0.05 mm.
+Failures: a span that begins with an outer link, on both chains, and the alternative on one. If the
+spans began with inner links, this supports the default pattern of the engine, though weakly: the
+resolution of the caliper is 0.05 mm.
 
-It cannot show: how fast a chain grows, nor by how much a sprocket is worn faster by unequal
+Not shown: how fast a chain grows, or how much faster a sprocket wears because of unequal
 pitches.
 """
 
@@ -44,7 +44,7 @@ def excess(span, over_10, *pattern):
 def test_alternating_pitches(data, span, measured, chain, first, verdict):
     over_11, over_10 = growths(data, chain)
     measured(
-        f"{chain}: growth over 11 less over 10 pitches, {first} links at both ends",
+        f"{chain}: growth over 11 pitches less that over 10, {first} links at both ends",
         excess(span, over_10, first, "alternating"),
         float(over_11 - over_10),
         ("below", 0.1),
@@ -60,7 +60,7 @@ def test_alternating_pitches(data, span, measured, chain, first, verdict):
 def test_uniform_pitches(data, span, measured, chain, verdict):
     over_11, over_10 = growths(data, chain)
     measured(
-        f"{chain}: the same, rival: all pitches grow alike",
+        f"{chain}: the same, alternative: all pitches grow equally",
         excess(span, over_10, "inner", "uniform"),
         float(over_11 - over_10),
         ("below", 0.1),

@@ -1,20 +1,20 @@
 """V7: pins of plastic on a disc at two loads
 
 Dry pins of PPS with PTFE ([pin_on_disc.csv](../tests/validation/data/pin_on_disc.csv)). The engine
-runs an even contact given by a table (`mechanism.kind = "prescribed"`): a cycle is a metre of
-sliding, the load that of the pin. The area of the pin is not stated; only the coefficient over it
-is identified.
+runs a uniform contact given by a table (`mechanism.kind = "prescribed"`): a cycle is a metre of
+sliding under the load of the pin. The area of the pin is not stated, so only the coefficient divided
+by the area is identified.
 
-Calibrated at 59.8 N, the mean of two tests: the late slope, and for the depth a running-in of two
-keys besides. Predicts the late slope and the depths at 98.1 N, means of one (PPS) and two tests (30
-% PTFE). A factor of 2 is allowed; duplicates differ by as much.
+Calibrated at 59.8 N, the mean of two tests: the late slope, and for the depth also the two
+keys of the running-in. It predicts the late slope and the depths at 98.1 N, means of one test (PPS)
+and of two tests (30 % PTFE). A factor of 2 is allowed; duplicates differ by as much.
 
 Left out: 15 % PTFE, as there is no second load, and 45 % PTFE, whose depth is below the drift of
 the gauge (one test is negative throughout).
 
-It cannot show: an absolute coefficient; a redistribution of pressure, since a flat pin stays flat;
-anything of steel, of oil or of a line contact. It is Archard's proportion to load and sliding that
-is tested, and the slope of 30 % PTFE does not follow it (it falls by 7 % where it should grow by 64
+Not shown: an absolute coefficient; a redistribution of pressure, since a flat pin stays flat;
+anything about steel, oil or a line contact. Only Archard's proportion to load and sliding is
+tested, and the slope of 30 % PTFE does not follow it (it falls by 7 % where it should grow by 64
 %): it passes only because a factor of 2 is wide.
 """
 
@@ -99,7 +99,7 @@ def test_depth_over_distance(tests_of, depth_at, measured, material):
     found = depth_at(HIGH, slope / LOW, high.index.to_numpy(dtype=float), warp)
     at = int(np.abs(np.log(found / high.depth_um.to_numpy())).argmax())
     measured(
-        f"{material}: depth at 98.1 N after {high.index[at]} m, furthest off of {len(high)}",
+        f"{material}: depth at 98.1 N after {high.index[at]} m, largest deviation of {len(high)}",
         float(found[at]),
         float(high.depth_um.iloc[at]),
         ("factor", 2),

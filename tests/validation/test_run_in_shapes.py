@@ -1,26 +1,26 @@
 """V4: curves of elongation, running-in and lubrication
 
-Typical figures of a bicycle shop and of a maker of chains
+Typical figures from a bicycle shop and from a chain manufacturer
 ([run_in.csv](../tests/validation/data/run_in.csv)). The engine runs `bicycle-17t-road` with
-`wear.running_in_factor` and `wear.running_in_distance_mm`, which fall off exponentially.
+`wear.running_in_factor` and `wear.running_in_distance_mm`, an exponentially decaying running-in.
 
-Calibrated on three figures: 2 mm in the first 150 km, of the excess 95 % in the first 100 km, then
-2.5 mm in 2000 km, of 1397 mm. Predicts that the run-in is below 0.15 %, over by 200 km, the curve
-straight after, and the whole length at 2500 km. The coefficients of the oiled and the degreased
-chain are in the ratio of roller scars, 13.
+Calibrated on three figures for a length of 1397 mm: 2 mm in the first 150 km, 95 % of the excess in
+the first 100 km, then 2.5 mm in 2000 km. It predicts that the running-in is below 0.15 % and over by
+200 km, that the curve is straight afterwards, and the total elongation at 2500 km. The coefficients
+of the oiled and the degreased chain have the ratio of the wear scars of the rollers, 13.
 
-What fails: two figures. A chain that is not oiled again bends upward; without `[lubrication]` the
-engine's coefficient knows no age of the lubricant, so its late curve stays straight. And a run-in
-of a bicycle's chain is above the 0.1 % of the industrial guide: the two sources differ, and the
-engine follows the one it was calibrated on.
+Failures: two figures. The curve of a chain that is not re-oiled bends upward; without `[lubrication]`
+the coefficient of the engine does not depend on the age of the lubricant, so its late curve stays
+straight. And the running-in of a bicycle chain is above the 0.1 % of the industrial guide: the two
+sources differ, and the engine follows the one used for calibration.
 
-The row *with the age of the lubricant* has `[lubrication]`: the coefficient of a chain that is not
-oiled again rises to 13 times from 2000 to 2500 km (where is assumed). The knee follows from what was
-put in; that a knee comes, and upward, is all that it shows.
+The row *with the age of the lubricant* uses `[lubrication]`: the coefficient of a chain that is not
+re-oiled rises to 13 times between 2000 and 2500 km (the distances are assumed). The knee follows from
+the input; the row only shows that there is an upward knee.
 
-It cannot show: how much a chain runs in, since both keys are fitted, nor for how many hours; that
-the order of oiled and degreased is right follows from the coefficients put in. That it runs in by
-conforming, as joints do, is not in the engine.
+Not shown: how much a chain runs in, since both keys are fitted, or for how many hours; the right
+order of oiled and degreased follows from the given coefficients. Running-in by conforming surfaces,
+as in real joints, is not in the engine.
 """
 
 import numpy as np
@@ -82,7 +82,7 @@ def late_line(growth):
 
 def test_amount(oiled, measured):
     measured(
-        "run-in, where the late line begins",
+        "running-in: intercept of the late line",
         100.0 * late_line(oiled)[1],
         0.14,
         ("below", 0.15),
@@ -106,7 +106,7 @@ def test_amount_of_industrial_chains(oiled, figures, measured):
 def test_over_by_200_km(oiled, measured):
     slope, start = late_line(oiled)
     measured(
-        "part of the run-in that is left at 200 km",
+        "fraction of the running-in left at 200 km",
         (start + slope * 200.0 - oiled.at(200.0)) / start,
         "over by 200 km, or 20 h",
         ("below", 0.05),
@@ -119,7 +119,7 @@ def test_straight_after(oiled, measured):
     after = oiled.distance >= 200.0
     off = np.abs(oiled.elongation[after] - start - slope * oiled.distance[after]).max()
     measured(
-        "greatest distance from a straight line after 200 km, over the growth since",
+        "greatest deviation from a straight line after 200 km, over the growth since",
         off / (oiled.elongation[-1] - oiled.at(200.0)),
         "nearly linear",
         ("below", 0.05),
@@ -129,7 +129,7 @@ def test_straight_after(oiled, measured):
 
 def test_whole_length(oiled, figures, measured):
     measured(
-        "lengthening at 2500 km",
+        "elongation at 2500 km",
         oiled.at(figures.whole_distance) * figures.chain_length,
         float(figures.whole_lengthening),
         ("within", 1.0),
@@ -142,7 +142,7 @@ def test_whole_length(oiled, figures, measured):
 def test_degreased_is_steeper(oiled, grown, coefficient, figures, measured):
     dry = grown(figures.dry_over_oiled * coefficient, 500.0)
     measured(
-        "late rate degreased over oiled",
+        "late rate, degreased over oiled",
         dry.rate / (1e5 * late_line(oiled)[0]),
         "steeper, nearly straight",
         ("above", 2.0),
@@ -153,7 +153,7 @@ def test_degreased_is_steeper(oiled, grown, coefficient, figures, measured):
 def test_knee_without_oil(oiled, measured):
     marks = [oiled.at(km) for km in (500.0, 1000.0, 2000.0, 2500.0)]
     measured(
-        "not oiled again: last rate over the one before",
+        "not re-oiled: last rate over the previous one",
         (marks[3] - marks[2]) / (marks[1] - marks[0]),
         "a knee upward",
         ("above", 1.05),
@@ -170,7 +170,7 @@ def test_knee_by_age_of_the_lubricant(grown, coefficient, figures, measured):
     # The end of a run each: a line between two rows of a history would cut the knee.
     marks = [grown(coefficient, km, *age).elongation[-1] for km in (500.0, 1000.0, 2000.0, 2500.0)]
     measured(
-        "not oiled again, with the age of the lubricant: last rate over the one before",
+        "not re-oiled, with the age of the lubricant: last rate over the previous one",
         (marks[3] - marks[2]) / (marks[1] - marks[0]),
         "a knee upward",
         ("above", 1.05),

@@ -1,20 +1,20 @@
 """V5: a sealed chain that keeps its length
 
-A motorcycle in dirt whose sealed chain has not grown in 17 000 km while it used up front sprockets
+A motorcycle in dirt: its sealed chain did not grow in 17 000 km, while front sprockets wore out
 ([sealed_chain.csv](../tests/validation/data/sealed_chain.csv)). The engine runs the shipped case
 `520-15t-wrap` (15/43 teeth, 12 kW at 90 km/h, 1e-6 mm3/(N m) on the teeth: all assumed) with joints
 that do not wear.
 
-A sign test, nothing is calibrated: no elongation, and yet the teeth reach a limit. An engine whose
-teeth wear only because the chain has grown would fail it. The distance is printed with the case's
-own coefficient, and a factor of 3, its band.
+This tests a sign; nothing is calibrated: no elongation, and yet the teeth reach a limit. An engine
+whose teeth wear only because the chain has grown would fail. The distance is given for the
+coefficient of the case, with its band, a factor of 3.
 
-What fails: the distance. Teeth with the assumed coefficient live seven times as long as the
+Failure: the distance. Teeth with the assumed coefficient last seven times as long as the
 sprocket of the source (8000 km "and more"). Some 7e-6 mm3/(N m), near the typical value of
 `hardened, dry`, would give it, but so would another power or another limit.
 
-It cannot show: a depth, as the source does not say what was worn off; a coefficient of teeth; more
-than the order of things.
+Not shown: a depth, as the source does not state the depth of wear; a coefficient of the teeth;
+anything beyond the sign.
 """
 
 import pytest

@@ -1,24 +1,24 @@
 """V9: twin discs of wheel and rail steel
 
-The published law of wear of two dry discs that roll and slip at 1500 MPa
-([twin_disc.csv](../tests/validation/data/twin_disc.csv)). The engine runs an even line contact
-given by a table (`mechanism.kind = "prescribed"`), slip ratio and load per width as there, discs of
-47 mm by 10 mm (recalled). Its depth in a passage is turned into the law's unit over the contact
-width of Hertz.
+The published wear law of two dry discs that roll and slip at 1500 MPa
+([twin_disc.csv](../tests/validation/data/twin_disc.csv)). The engine runs a uniform line contact
+given by a table (`mechanism.kind = "prescribed"`) with the same slip ratio and load per width, and
+discs of 47 mm by 10 mm (from memory). Its depth per passage is converted into the unit of the law
+with the Hertz contact width.
 
 Calibrated with one constant coefficient on slips of 0.2, 0.5 and 1 % (mild wear), least squares of
-the rates. Predicts 3, 7.5 and 10 %, where wear is severe and the law has a plateau. A factor of 2
+the rates. It predicts 3, 7.5 and 10 %, where wear is severe and the law has a plateau. A factor of 2
 is allowed.
 
-What fails: 7.5 and 10 %, as they must. A constant coefficient knows no change of the kind of wear;
-in wearsim it has to be put in by hand, one coefficient for each. The plateau is met at 3 % because
-it is near there.
+Failures: 7.5 and 10 %, as they must. A constant coefficient does not include the change from mild to
+severe wear; in wearsim each regime needs its own coefficient, entered by hand. The prediction at 3 %
+passes because the plateau begins near there.
 
-The rows of the *T-gamma law* are no engine's: the law of the source itself, its scale fitted to the
-same mild slips. They pass because **the data are that law**.
+The rows *T-gamma law* do not use the engine: this is the law of the source itself, its scale fitted
+to the same mild slips. They pass because **the data are that law**.
 
-It cannot show: agreement with measured points: the law is a fit of others to points that were not
-seen, so the last column has no scatter; it is consistency with a published law at most.
+Not shown: agreement with measured points. The law was fitted by others to points that were not
+available here, so the rows have no scatter. They show consistency with a published law at most.
 """
 
 import numpy as np
@@ -69,7 +69,7 @@ def test_beyond_mild_wear(rates, measured, slip, verdict):
         ("factor", 2),
         verdict,
         unit="ug/(m mm2)",
-        scatter="a law, no points",
+        scatter="law, no points",
     )
 
 
@@ -85,5 +85,5 @@ def test_t_gamma(rates, measured, slip):
         ("factor", 2),
         "passed",
         unit="ug/(m mm2)",
-        scatter="a law, no points",
+        scatter="law, no points",
     )

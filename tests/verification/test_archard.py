@@ -102,8 +102,8 @@ def test_b8ii_worn_area_is_k_q_s(
     area = np.trapezoid(last_depths(result), ARC)
     sliding = result.cycles * np.trapezoid(slip, ARC)
     validated(
-        "worn area on a flank whose curvature changes its sign",
-        *(area, 1e-9 * 100.0 * sliding, 1e-9, "k q s, whatever the pressure", "mm2"),
+        "worn area on a flank whose curvature changes sign",
+        *(area, 1e-9 * 100.0 * sliding, 1e-9, "k q s, independent of the pressure", "mm2"),
         page=np.min(curvature) < 0.0,
     )
 

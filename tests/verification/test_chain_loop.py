@@ -41,7 +41,7 @@ def with_idler(x: float, y: float, teeth: int = 13, idler: int = 11, apart: floa
 def test_two_wheels_are_a_belt(validated: Callable[..., None]) -> None:
     found = [two_wheels(*drive, slope).links for drive in DRIVES for slope in (0.0, 0.7, -2.0)]
     expected = [belt_links(*drive) for drive in DRIVES for _ in range(3)]
-    validated("links round two wheels", found, expected, 1e-13, "closed form of the open belt", "links")
+    validated("links around two wheels", found, expected, 1e-13, "closed form of the open belt", "links")
 
 
 @pytest.mark.parametrize(("one", "two", "centre"), DRIVES)
@@ -60,7 +60,7 @@ def test_three_equal_wheels(validated: Callable[..., None]) -> None:
     loop = ChainLoop(PITCH, tuple(Wheel(f"w{i}", at, 21) for i, at in enumerate(corners)))
     perimeter = sum(math.dist(corners[i - 1], corners[i]) for i in range(3))
     radius = 0.5 * PITCH / math.sin(math.pi / 21)
-    quantity, source = "line round three equal wheels", "perimeter + 2 pi r"
+    quantity, source = "chain line around three equal wheels", "perimeter + 2 pi r"
     validated(quantity, loop.circle_length, perimeter + 2.0 * math.pi * radius, 1e-13, source, "mm")
     assert loop.links == pytest.approx(perimeter / PITCH + 21, rel=1e-13)
     assert np.sum(loop.wrap_angles) == pytest.approx(2.0 * math.pi, rel=1e-14)
@@ -98,7 +98,7 @@ def test_random_loops_are_hulls(validated: Callable[..., None]) -> None:
         expected.append((4.0 * fine - coarse) / 3.0)
     assert missed > 0
     source = "shapely: hull of the circles, extrapolated"
-    validated("line round 3 to 6 wheels", found, expected, 1e-8, source, "mm")
+    validated("chain line around 3 to 6 wheels", found, expected, 1e-8, source, "mm")
 
 
 def test_wheels_within_the_hull_are_not_touched() -> None:
@@ -137,7 +137,7 @@ def test_outside_idler_is_a_string_round_a_disc(validated: Callable[..., None]) 
         found.append(loop.circle_length)
         expected.append(500.0 + sum(tangents) + disc * arc + 2.0 * math.pi * r)
     source = "string from point to point round a disc of r + s"
-    validated("line round two wheels with an outside idler", found, expected, 1e-13, source, "mm")
+    validated("chain line around two wheels with an outside idler", found, expected, 1e-13, source, "mm")
 
 
 def test_links_of_an_outside_idler() -> None:

@@ -73,7 +73,7 @@ def test_points_of_the_head(line):
     [(21, 0.04801680, 38.37644115), (25, 0.34521302, 39.01713980), (30, 1.01357754, 40.08662486)],
 )
 def test_points_at_whole_degrees(validated, degrees, x, y):
-    quantity, points = f"point of the head at {degrees} deg", HEAD.points(math.radians(degrees))
+    quantity, points = f"addendum point at {degrees} deg", HEAD.points(math.radians(degrees))
     source, shown = "independent program", degrees == 25
     validated(quantity, points, [x, y], 1e-8, source, "mm", absolute=True, page=shown)
 
@@ -126,7 +126,8 @@ def test_foot():
     ],
 )
 def test_curvature_radius(validated, flank, degrees, rho):
-    quantity, found = f"radius of the {flank.part}", flank.curvature_radius(math.radians(degrees))
+    part = {"head": "addendum", "foot": "dedendum"}[flank.part]
+    quantity, found = f"radius of the {part}", flank.curvature_radius(math.radians(degrees))
     source, shown = "independent program", degrees == 25
     quantity = f"{quantity} at {degrees} deg"
     validated(quantity, found, rho, 5e-11, source, "mm", absolute=True, page=shown)
@@ -286,7 +287,7 @@ def test_over_rollers(validated, diameter):
     assert found.part == part
     assert math.degrees(found.alpha) == pytest.approx(alpha, abs=5e-9)
     assert found.centre_radius == pytest.approx(centre, abs=5e-9)
-    quantity, source = f"size over rollers of {diameter} mm", "independent program"
+    quantity, source = f"dimension over rollers of {diameter} mm", "independent program"
     shown = diameter in (6.5, 8.5)
     validated(quantity, found.over, over, 5e-9, source, "mm", absolute=True, page=shown)
 

@@ -141,7 +141,7 @@ def test_given_by_distance_or_by_links_is_one_drive() -> None:
 
 def test_belt_of_case_b(validated: Callable[..., None]) -> None:
     """Three spans and arcs added up: 70.690 + 8.784 + 35.331 pitches."""
-    quantity, source = "links of drive B by the exact belt", "spans and arcs added up by hand"
+    quantity, source = "links of drive B by the exact belt length", "spans and arcs added up by hand"
     validated(quantity, belt_links(20, 63, 36.0), 114.805, 5e-4, source, "pitches", absolute=True)
     assert round(belt_centre(20, 63, 114), 3) == 35.590
     inclination = math.asin((1 / math.sin(math.pi / 63) - 1 / math.sin(math.pi / 20)) / 72.0)

@@ -284,8 +284,8 @@ def test_rating_point_verifies_equation_4_1_and_validates_nothing(validated: Cal
     )
     pull = case.drive.heaviest.tension - case.drive.slack
     source = "rating point of no. 40"
-    validated("pull of the rating point, no. 40", pull, 1145.0, 1.2e-3, source, "N")
-    source = "rating life; the coefficient was set from it, so no validation"
+    validated("tension at the rating point, no. 40", pull, 1145.0, 1.2e-3, source, "N")
+    source = "rating life; not a validation: the coefficient was set from it"
     validated("hours of its chain to 3 %", chain_hours(case), 15_000.0, 0.05, source, "h")
 
 

@@ -48,8 +48,8 @@ def test_reference_maxima(validated):
     mises, shear = greatest_von_mises(0.3), greatest_shear()
     # The reference's depths are right to 2e-8 and 3e-9 only: see the next two tests.
     for name, found, expected, within in (
-        ("greatest von Mises stress below a line contact, over p0", mises.stress, 0.5575162166, 5e-11),
-        ("greatest shear below a line contact, over p0", shear.stress, 0.3002831060, 5e-11),
+        ("maximum von Mises stress below a line contact, over p0", mises.stress, 0.5575162166, 5e-11),
+        ("maximum shear stress below a line contact, over p0", shear.stress, 0.3002831060, 5e-11),
         ("depth of the von Mises stress, over a", mises.depth, 0.7042916644, 2.1e-8),
         ("depth of the shear, over a", shear.depth, 0.7861513807, 3.1e-9),
     ):

@@ -110,7 +110,7 @@ def test_pitch_point_angle(validated, stress, angle):
 
 def test_least_stress_in_the_pitch_point(validated):
     found, source = pair().least_pitch_point_stress, "independent program"
-    validated("least stress at the pitch point", found, 364.1190949303, 5e-11, source, "MPa", absolute=True)
+    validated("minimum stress at the pitch point", found, 364.1190949303, 5e-11, source, "MPa", absolute=True)
     assert pair(364.1191).pitch_point_crossing().pressure_angle == pytest.approx(math.pi / 4, abs=1e-3)
     with pytest.raises(GeometryError, match=r"above 364\.119 at the pitch point.*45 deg.*but is 364"):
         tables(364).phases(pair(364))
@@ -634,7 +634,7 @@ def test_small_radii_end_before_the_pitch_point(validated):
     end, angle = PathSynthesis(CIRCLES, pair().radius_rule, -1).end(START, 1e-5)
     assert math.degrees(angle) == pytest.approx(90, abs=0.01)
     expected, source = end_by_angle(START), "integration over the angle instead"
-    validated("end of a line of small radii", end, expected, 1e-6, source, "mm", absolute=True)
+    validated("end of a line with small radii", end, expected, 1e-6, source, "mm", absolute=True)
     assert end == pytest.approx(5.585639, abs=1e-6)
     with pytest.raises(GeometryError, match=r"family -1 .* 5\.58564 mm.*90 deg.*reach 5"):
         segment(-1, 5)

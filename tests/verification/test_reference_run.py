@@ -44,7 +44,7 @@ def test_life_and_pressure(
     quantity = f"life of the reference run, m = {exponent:g}"
     validated(quantity, result.cycles, LIVES[exponent], within, source, "cycles", page=shown)
     assert result.life.hours == pytest.approx(result.cycles / (60 * 100), rel=1e-14)
-    quantity, found = "first peak pressure of the reference run", result.initial_peak_pressure
+    quantity, found = "initial peak pressure of the reference run", result.initial_peak_pressure
     shown = shown and exponent == 1
     validated(quantity, found, 995.0, within, source, "MPa", page=shown)
     assert result.stop == "critical_depth_mm"

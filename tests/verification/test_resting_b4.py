@@ -169,7 +169,7 @@ def test_area_is_k_q_s(validated, level):
     cycles = run.cycles[-1]
     assert run.met is not None and cycles < 300.0
     # The last step is cut at the limit, in a straight line: the area is too.
-    quantity, found = "area worn off by rollers of several loads", 1e-4 * worn * cycles
+    quantity, found = "worn area under rollers with several loads", 1e-4 * worn * cycles
     validated(quantity, run.area, found, 1e-12, "k sum(q s)", "mm2", page=level == 0)
     x = contact.profile.x
     outlines = sum(area_between(x, 0.0 * x, x, -depth) for depth in run.all_depth[-1])

@@ -85,10 +85,12 @@ def test_no_50_drive(validated: Callable[..., None]) -> None:
     drives = judged(need)
     passing = [one.layout.teeth_1 for one in ranked(drives, need.ratio) if one.chain.designation == "10A-1"]
     source = "published no. 50 drive"
-    validated("least teeth of no. 50 that pass", min(passing), math.ceil(20.046), 0.5, source, absolute=True)
+    validated(
+        "minimum teeth of no. 50 that pass", min(passing), math.ceil(20.046), 0.5, source, absolute=True
+    )
     short = drive_of(drives, "10A-1", (20, 63))
     needed = 20 * used(short, "plate fatigue") ** (1 / 1.08)
-    validated("teeth that just pass", needed, 20.046, 2e-3, source, absolute=True)
+    validated("teeth at the rating limit", needed, 20.046, 2e-3, source, absolute=True)
     assert short.layout.links == 114
     centre = short.layout.centre_distance / 15.875
     validated("centre distance of 114 links", centre, 35.6, 0.05, source, "pitches", absolute=True)
@@ -187,7 +189,7 @@ def test_rating_point_of_no_40(validated: Callable[..., None]) -> None:
     passing = [one for one in ranked(judged(need), need.ratio) if one.chain.designation == "08A-1"]
     source = "rating point of ISO 10823 and ANSI B29.1"
     least = min(one.layout.teeth_1 for one in passing)
-    validated("least teeth of no. 40 at its rating point", least, 19, 0.5, source, absolute=True)
+    validated("minimum teeth of no. 40 at its rating point", least, 19, 0.5, source, absolute=True)
     best = drive_of(tuple(passing), "08A-1", (19, 57))
     assert best.layout.links == 120
     validated("life of its chain", best.life, 15_000.0, 0.03, source, "h")

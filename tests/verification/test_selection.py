@@ -69,7 +69,7 @@ def finding(drive: RatedDrive, name: str, *factors: float) -> RatingFinding:
 def test_plates_govern_at_low_speed(
     validated: Callable[..., None], pitch: float, teeth: int, speed: float, horsepower: float
 ) -> None:
-    quantity = f"rating by the plates, pitch {pitch:g} mm, {teeth} teeth, {speed} rpm"
+    quantity = f"rating by link plate fatigue, pitch {pitch:g} mm, {teeth} teeth, {speed} rpm"
     found, source = plate_fatigue_rating(pitch, teeth, speed) / HORSEPOWER, "published drive"
     validated(quantity, found, horsepower, 5e-3, source, "hp", absolute=True)
     assert power_rating(pitch, teeth, speed) == plate_fatigue_rating(pitch, teeth, speed)
@@ -84,8 +84,8 @@ def test_teeth_of_the_no_50_drive(validated: Callable[..., None]) -> None:
     plates = bisected(lambda teeth: plate_fatigue_rating(15.875, teeth, 1200), 15 * HORSEPOWER)
     impact = bisected(lambda teeth: roller_impact_rating(15.875, teeth, 1200), 15 * HORSEPOWER)
     source = "published no. 50 drive"
-    validated("teeth for 15 hp by the plates", plates, 20.046, 5e-4, source, absolute=True)
-    validated("teeth for 15 hp by the rollers", impact, 14.184, 5e-4, source, absolute=True)
+    validated("teeth for 15 hp by link plate fatigue", plates, 20.046, 5e-4, source, absolute=True)
+    validated("teeth for 15 hp by roller impact", impact, 14.184, 5e-4, source, absolute=True)
     assert round(impact * (17 / 29) ** (2 / 3), 2) == 9.94
 
 
@@ -235,7 +235,7 @@ def test_loads_of_the_worked_drives(validated: Callable[..., None], case: str) -
     assert round(1e-3 * speed, 3) == speed_printed
     within, how = 5.0 if case == "A" else 0.5, {"absolute": True, "page": case in "AD"}
     source = "printed answer, see the test"
-    validated(f"pull of drive {case}", pull, pull_printed, within, source, "N", **how)
+    validated(f"tension of drive {case}", pull, pull_printed, within, source, "N", **how)
     assert RatedDrive(chain.pitch, one, rpm, power).pull == pytest.approx(pull, rel=1e-12)
     tight = (
         pull / strands

@@ -62,7 +62,7 @@ def test_evolute_flank_converges_to_the_closed_form(
 ) -> None:
     grids = (101, 201, 401)
     for name, (value, expected) in compared(reference_mechanism(nodes=401), 401).items():
-        quantity = f"{name} of a general flank on the evolute one"
+        quantity = f"{name} by the general flank method, evolute flank"
         shown = name != "sliding speed"
         validated(quantity, value, expected, 4e-5, "its closed form", UNITS[name], page=shown)
     found = [errors(reference_mechanism(nodes=nodes), nodes) for nodes in grids]

@@ -81,7 +81,7 @@ def test_life_by_a_power_of_the_cycles(
     steady, reference = 0.01 / (1e-9 * sigma(100.0) * 0.3), 5.0 * 60.0 * case.speed_rpm
     result = wearsim.simulate(case.with_({"run.horizon_hours": 1e13}))
     validated(
-        f"life where wear goes with the cycles to the power {exponent}",
+        f"life, wear proportional to cycles to the power {exponent}",
         result.cycles,
         reference * (steady / reference) ** (1.0 / exponent),
         *(1e-8, "closed form at constant load, curvature and path", "cycles"),

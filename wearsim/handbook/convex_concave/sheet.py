@@ -28,12 +28,15 @@ from wearsim.report.text_lines import Finding, answer_text
 
 _POINTS = 101
 
+_PARTS = {"head": "addendum", "foot": "dedendum"}
+"""Words of the answer for the parts of a flank."""
+
 _ASSUMPTIONS = (
     "the line of action has two arcs, after Bosansky (2015); its eq. (1) has a wrong sign in y, so the "
     "flank here follows its listing",
     "curvatures follow Euler and Savary; the source gives only their signs",
     "addendum, root and backlash are not in the source; backlash turns the flanks about the axis here, "
-    "while its listing shifts them along x, which only a rack allows",
+    "while its listing shifts them along x, which is right only for a rack",
     "the involute pair has the same module, teeth, addendum and centre distance, and the pressure angle "
     "at the pitch point; its path ends at the base circles where these come before the tips",
 )
@@ -225,9 +228,9 @@ def _gear_lines(layout: PairLayout) -> list[str]:
         "tip_radius_mm": "tip radius, mm",
         "root_radius_mm": "root radius, mm",
         "tip_angle_deg": "pressure angle at the tip, deg",
-        "tip_thickness_mm": "thickness of the tip, mm",
-        "foot_angle_deg": "pressure angle where the foot ends, deg",
-        "foot_end_radius_mm": "radius where the foot ends, mm",
+        "tip_thickness_mm": "tip thickness, mm",
+        "foot_angle_deg": "pressure angle at end of dedendum, deg",
+        "foot_end_radius_mm": "radius at end of dedendum, mm",
     }
     gears = [_gear(body) for body in layout.bodies]
     lines = [f"{'':41s}{'pinion':>10s}{'wheel':>10s}"]
@@ -275,17 +278,17 @@ def _signs(conditions: tuple[SignCondition, ...]) -> str:
     found = []
     for one in conditions:
         verdict = "holds" if one.holds else "does NOT hold"
-        limit = "with every arc"
+        limit = "for any arc"
         if math.isfinite(one.arc_limit):
-            limit = f"arc of {one.flank.arc_radius:g} mm, at the pitch point below {one.arc_limit:.4g} mm"
+            limit = f"arc radius {one.flank.arc_radius:g} mm, limit at the pitch point {one.arc_limit:.4g} mm"
         found.append(f"({one.number}) {one.radius} {verdict} ({limit})")
     return "; ".join(found)
 
 
 def _rack_text(layout: PairLayout) -> str:
     return "; ".join(
-        f"flank that cuts the pinion's {one.flank.part}: arc of {one.fit.radius:.4f} mm about "
-        f"({one.fit.centre[0]:.4f}, {one.fit.centre[1]:.4f}) mm, off by {one.deviation:.4f} mm at most, "
+        f"flank that cuts the pinion {_PARTS[one.flank.part]}: arc of {one.fit.radius:.4f} mm about "
+        f"({one.fit.centre[0]:.4f}, {one.fit.centre[1]:.4f}) mm, deviation at most {one.deviation:.4f} mm, "
         f"{one.fit.rms:.4f} mm rms"
         for one in layout.rack_arcs
     )
@@ -293,7 +296,7 @@ def _rack_text(layout: PairLayout) -> str:
 
 def _roller_lines(layout: PairLayout) -> list[str]:
     lines = [
-        f"{'rollers':9s}{'D, mm':>9s}  {'rests on':9s}{'alpha, deg':>11s}{'centre at, mm':>15s}"
+        f"{'rollers':9s}{'D, mm':>9s}  {'rests on':10s}{'alpha, deg':>11s}{'at radius, mm':>15s}"
         f"{'over rollers, mm':>18s}{'involute, mm':>14s}"
     ]
     for body in layout.bodies:
@@ -301,8 +304,8 @@ def _roller_lines(layout: PairLayout) -> list[str]:
             involute = one["involute_over_pins_mm"]
             shown = "-" if involute is None else f"{involute:.4f}"
             lines.append(
-                f"{body.name:9s}{one['roller_mm']:9.4g}  {one['part']:9s}{one['pressure_angle_deg']:11.4f}"
-                f"{one['centre_radius_mm']:15.4f}{one['over_pins_mm']:18.4f}{shown:>14s}"
+                f"{body.name:9s}{one['roller_mm']:9.4g}  {_PARTS[one['part']]:10s}"
+                f"{one['pressure_angle_deg']:11.4f}{one['centre_radius_mm']:15.4f}{one['over_pins_mm']:18.4f}{shown:>14s}"
             )
     return lines
 
@@ -311,21 +314,21 @@ def _warnings(layout: PairLayout) -> list[str]:
     pair, found = layout.pair, []
     if pair.contact_ratio < 1.0:
         found.append(
-            f"the contact ratio is {pair.contact_ratio:.3f}, below 1: a pair of spur teeth lets go before "
-            "the next one meets; raise addendum_ratio or the teeth must be helical"
+            f"the contact ratio is {pair.contact_ratio:.3f}, below 1: a tooth pair separates before "
+            "the next one engages: raise addendum_ratio, or use helical teeth"
         )
     found += [
-        f"({one.number}) {one.radius} does not hold up to the end of contact: the foot is convex "
+        f"({one.number}) {one.radius} does not hold up to the end of contact: the dedendum is convex "
         f"beyond {math.degrees(max(one.flank.straight_angle, pair.pitch_point_angle)):.4g} deg; "
-        "lower the radius of its arc"
+        "reduce the radius of its arc"
         for one in pair.sign_conditions
         if not one.holds
     ]
     for body in layout.bodies:
         if body.overlap > 10.0 * OUTLINE_TOLERANCE:
             found.append(
-                f"the mate's tips cut {body.overlap:.3f} mm into the root of the {body.name}: raise "
-                'root_clearance_ratio or take root_form = "radial"'
+                f"the tips of the mating gear cut {body.overlap:.3f} mm into the root of the {body.name}: "
+                'raise root_clearance_ratio or set root_form = "radial"'
             )
         for measured in body.measured:
             roller = measured.roller
@@ -334,6 +337,6 @@ def _warnings(layout: PairLayout) -> list[str]:
             if roller.centre_radius + 0.5 * roller.diameter < body.gear.tip_radius:
                 found.append(
                     f"the roller of {roller.diameter:g} mm lies below the tips of the {body.name}: "
-                    "a gauge does not reach it"
+                    "a gauge cannot reach it"
                 )
     return found

@@ -20,16 +20,16 @@ def face_load_figure(title: str, found: FaceLoad) -> Figure:
     ):
         _draw_load(face, found, state, label, colour, style)
     face.axhline(1.0, color="0.5", linewidth=0.8)
-    face.set_xlabel("place on the face from its middle, mm")
-    face.set_ylabel("load per width over the mean one")
+    face.set_xlabel("position from mid-face, mm")
+    face.set_ylabel("load per width over its mean")
     face.set_ylim(bottom=0.0)
-    face.set_title("lines: greatest of all meshes, bands: down to the least", fontsize=8, loc="left")
+    face.set_title("lines: maximum over all meshes; bands: down to the minimum", fontsize=8, loc="left")
     for run, label, colour, style in (
         (found.fixed, "fixed pinion", "tab:blue", "-"),
         (found.self_aligning, "self-aligning pinion", "tab:green", "--"),
     ):
         time.plot(run.hours[1:], run.factors[1:], style, color=colour, label=label)
-    time.axvline(fixed[1].hours, ymax=0.74, color="0.5", linewidth=0.8, linestyle=":", label="time asked for")
+    time.axvline(fixed[1].hours, ymax=0.74, color="0.5", linewidth=0.8, linestyle=":", label="given time")
     time.set_xscale("log")
     time.set_xlabel("running time, h")
     time.set_ylabel(r"face load factor $K_{H\beta}$")

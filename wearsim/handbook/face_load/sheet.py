@@ -20,7 +20,7 @@ _ASSUMPTIONS = (
     "the equations are a reconstruction: only the abstract of Vinogradov and Fedin (2015) survives",
     "the slices of the face lie on an elastic foundation and are not coupled (ISO 6336-1 method C); "
     "the gap is that under load and includes the deflection of shafts and bodies",
-    "wear follows Archard's law with one slip for the whole height of the teeth; every tooth of the "
+    "wear follows Archard's law with one mean slip over the tooth height; every tooth of the "
     "pinion meets every tooth of the wheel",
 )
 
@@ -82,7 +82,7 @@ def face_load_sheet(title: str, found: FaceLoad, defaults: Sequence[str]) -> Cal
 
 def _pivot(found: FaceLoad) -> str:
     follows = "only the mean gap" if found.lever is None else "every mesh beyond its friction"
-    return f"starts and changes of load rock a self-aligning pinion into balance; it then follows {follows}"
+    return f"starts and load changes bring a self-aligning pinion into balance; it then follows {follows}"
 
 
 def _runs(found: FaceLoad) -> Iterator[tuple[str, FaceRunningIn]]:
@@ -122,36 +122,36 @@ def _distribution(found: FaceLoad, name: str, state: FaceState) -> dict[str, Any
 def _text(title: str, found: FaceLoad, states: Sequence[dict[str, Any]]) -> str:
     mesh = found.mesh
     load = (
-        f"{grouped(mesh.mean_load)} N/mm on {grouped(mesh.face_width)} mm; stiffness "
+        f"{grouped(mesh.mean_load)} N/mm over {grouped(mesh.face_width)} mm; stiffness "
         f"{mesh.stiffness / 1e3:g} N/(mm um)"
     )
     lines = [
-        f"  {'pinion':15s}{'state':10s}{'hours':>9s}{'K_Hbeta':>10s}{'as F_beta, um':>15s}"
-        f"{'loaded':>9s}{'worn off, mm':>14s}"
+        f"  {'pinion':15s}{'state':10s}{'hours':>9s}{'K_Hbeta':>10s}{'equiv. F_beta, um':>19s}"
+        f"{'loaded':>9s}{'wear, mm':>10s}"
     ]
     lines += [
         f"  {_NAMES[one['pinion_mounting']]:15s}{_STATES[one['face_state']]:10s}"
         f"{grouped(one['time_hours']):>9s}{one['face_load_factor']:10.3f}"
-        f"{one['equivalent_misalignment_um']:15.1f}{one['loaded_share']:9.0%}"
-        f"{one['greatest_opening_mm']:14.3f}"
+        f"{one['equivalent_misalignment_um']:19.1f}{one['loaded_share']:9.0%}"
+        f"{one['greatest_opening_mm']:10.3f}"
         for one in states
     ]
     notes = (
-        "K_Hbeta: greatest load per width in any mesh, over the mean; as F_beta: the linear gap with that "
-        "factor; loaded: the least part of the face that carries load; worn off: the greatest depth, both "
-        "flanks together"
+        "K_Hbeta: greatest load per width in any mesh, over the mean; equiv. F_beta: linear gap with the "
+        "same factor; loaded: smallest loaded part of the face; wear: greatest depth, both flanks "
+        "together"
     )
-    head = (title, Finding("Load", load), Finding("Runs in", _running_in(found)))
+    head = (title, Finding("Load", load), Finding("Run-in", _running_in(found)))
     return answer_text(*head, "", *lines, "", Finding("Columns", notes))
 
 
 def _running_in(found: FaceLoad) -> str:
-    text = f"a gap that is the same at every mesh falls to 1/e in {grouped(found.fixed_hours)} h"
+    text = f"constant misalignment falls to 1/e in {grouped(found.fixed_hours)} h"
     if len(found.share) == 1:
         return text
     if math.isinf(found.varying_hours):
-        return f"{text}; one that changes from mesh to mesh does not run in"
-    return f"{text}, one that turns with a wheel in {grouped(found.varying_hours)} h"
+        return f"{text}; misalignment that varies from mesh to mesh does not run in"
+    return f"{text}, misalignment that rotates with one gear in {grouped(found.varying_hours)} h"
 
 
 def _warnings(found: FaceLoad) -> list[str]:
@@ -162,26 +162,27 @@ def _warnings(found: FaceLoad) -> list[str]:
         carrying = min(int((state.loads > 0.0).sum(axis=-1).min()) for state in run.states)
         if carrying < _FEWEST_SLICES:
             warnings.append(
-                f"{pinion}: at worst {carrying} slices carry the whole load, so K_Hbeta is rough: raise "
-                "pair.slices"
+                f"{pinion}: in the worst mesh {carrying} slices carry the load, so K_Hbeta is inaccurate: "
+                "raise pair.slices"
             )
         if _loaded_share(found, new) < 1.0:
             warnings.append(
-                f"{pinion}: only {_loaded_share(found, new):.0%} of the new face carry load in the worst mesh"
+                f"{pinion}: only {_loaded_share(found, new):.0%} of the new face carries load in "
+                "the worst mesh"
             )
         if after.factor > 1.05 * worn.factor:
             warnings.append(
                 f"{pinion}: not yet run in after {grouped(after.hours)} h: K_Hbeta is {after.factor:.3g} "
-                f"and goes to {worn.factor:.3g}"
+                f"and tends to {worn.factor:.3g}"
             )
         if not run.settled:
             warnings.append(
-                f"{pinion}: still running in after {grouped(worn.hours)} h; run_in is the state then"
+                f"{pinion}: still running in after {grouped(worn.hours)} h; run_in is the state at that time"
             )
     lasting = [run.states[-1].factor for _, run in _runs(found)]
     if max(lasting) > 1.2:
         warnings.append(
             f"K_Hbeta stays at {lasting[0]:.3g} with a fixed pinion and at {lasting[1]:.3g} with a "
-            "self-aligning one: what changes from mesh to mesh does not run in"
+            "self-aligning one: misalignment that varies from mesh to mesh does not run in"
         )
     return warnings

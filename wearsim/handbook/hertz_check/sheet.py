@@ -267,8 +267,8 @@ def _input_warnings(check: HertzCheck) -> list[str]:
         )
     if contact.half_width > _WIDE * min(contact.flank_radii):
         warnings.append(
-            f"the contact is {contact.half_width:.3g} mm wide on either side, more than "
-            f"{_WIDE:g} of a radius: Hertz' theory is for narrow ones"
+            f"the half-width of the contact, {contact.half_width:.3g} mm, is more than "
+            f"{_WIDE:g} of a radius: Hertz theory assumes a narrow contact"
         )
     return warnings
 
@@ -279,18 +279,18 @@ def _verdicts(check: HertzCheck) -> list[str]:
         return []
     if abs(found - check.target) > ROUNDING:
         warnings.append(
-            f"{check.target:g} MPa is not what the formula gives for this contact, {found:.3f} MPa "
-            f"({100.0 * (found / check.target - 1.0):+.2f} %)"
+            f"{check.target:g} MPa does not follow from the formula, which gives {found:.3f} MPa for "
+            f"this contact ({100.0 * (found / check.target - 1.0):+.2f} %)"
         )
     column = comparison.columns["contact"]
     if not math.isnan(column.computed_difference):
         warnings.append(
-            f"from the finite elements' {column.finite_elements:g} MPa that differs by "
-            f"{column.computed_difference:.1f} %, not by {column.differences['larger']:.1f} %"
+            f"this differs from the finite-element stress, {column.finite_elements:g} MPa, by "
+            f"{column.computed_difference:.1f} %, not {column.differences['larger']:.1f} %"
         )
     if not comparison.references:
         warnings.append(
-            "no one reference gives all printed differences: neither the larger stress nor Hertz nor the "
+            "no single reference gives all printed differences: neither the larger stress nor Hertz nor the "
             "finite elements"
         )
     return warnings
@@ -300,8 +300,8 @@ def _mesh_warnings(contact: PitchPointContact, rows: Sequence[dict[str, Any]]) -
     wide = contact.half_width / min(contact.flank_radii)
     return [
         f"finite elements: the finest mesh is off by {rows[-1][f'{name}_error_percent']:+.1f} % in "
-        f"{name}, more than {greatest:g} %: raise finite_elements.elements_per_half_width; what stays is the "
-        f"size of the bodies (half-width {wide:.2g} of a radius)"
+        f"{name}, more than {greatest:g} %: raise finite_elements.elements_per_half_width; the rest is due "
+        f"to the size of the bodies (half-width {wide:.2g} of a radius)"
         for name, greatest in _GOALS.items()
         if rows and abs(rows[-1][f"{name}_error_percent"]) > greatest
     ]

@@ -9,7 +9,7 @@ from wearsim.handbook.hertz_check.pitch_point_contact import PitchPointContact
 from wearsim.report.answer_table import AnswerTable
 from wearsim.report.text_lines import row
 
-_REFERENCES = {"larger": "the larger of both", "hertz": "Hertz", "finite_elements": "the finite elements"}
+_REFERENCES = {"larger": "the larger of the two", "hertz": "Hertz", "finite_elements": "the finite elements"}
 
 ASSUMPTIONS = (
     "one pair of teeth carries the whole load at the pitch point, evenly along the face",
@@ -47,14 +47,15 @@ def _contact(check: HertzCheck, head: Mapping[str, Any]) -> list[str]:
         (
             "von Mises",
             f"{head['surface_von_mises_MPa']:.2f} MPa on the surface "
-            f"({head['surface_von_mises_MPa'] / pressure:.4f} p0), at most "
-            f"{head['depth_von_mises_MPa']:.2f} MPa ({head['depth_von_mises_MPa'] / pressure:.4f} p0), "
-            f"{head['depth_of_von_mises_mm']:.5f} mm below",
+            f"({head['surface_von_mises_MPa'] / pressure:.4f} p0), maximum "
+            f"{head['depth_von_mises_MPa']:.2f} MPa ({head['depth_von_mises_MPa'] / pressure:.4f} p0) "
+            f"at a depth of {head['depth_of_von_mises_mm']:.5f} mm",
         ),
         (
             "Shear",
-            f"at most {head['greatest_shear_MPa']:.2f} MPa "
-            f"({head['greatest_shear_MPa'] / pressure:.4f} p0), {head['depth_of_shear_mm']:.5f} mm below",
+            f"maximum {head['greatest_shear_MPa']:.2f} MPa "
+            f"({head['greatest_shear_MPa'] / pressure:.4f} p0) "
+            f"at a depth of {head['depth_of_shear_mm']:.5f} mm",
         ),
         ("File", _file(head.get("axis_file"))),
         ("Teeth", "" if ratio is None else f"contact ratio {ratio:.6f} without profile shift"),
@@ -66,25 +67,25 @@ def _file(found: Mapping[str, float] | None) -> str:
     if found is None:
         return ""
     return (
-        f"axis_file: von Mises at most {found['depth_von_mises_MPa']:.2f} MPa, "
-        f"{found['depth_of_von_mises_mm']:.5f} mm below ({found['depth_error_percent']:+.2f} %)"
+        f"axis_file: maximum von Mises stress {found['depth_von_mises_MPa']:.2f} MPa "
+        f"at a depth of {found['depth_of_von_mises_mm']:.5f} mm ({found['depth_error_percent']:+.2f} %)"
     )
 
 
 def _combinations(check: HertzCheck, table: AnswerTable[PitchPointContact]) -> list[str]:
     said = "stresses in MPa"
     if not math.isnan(check.contact_ratio):
-        said += f"; shared: 0.418 with the load over the contact ratio {check.contact_ratio:.4f}"
+        said += f"; shared: 0.418, load divided by the contact ratio {check.contact_ratio:.4f}"
     if not math.isnan(check.target):
-        said += f"; load x: share of the load that gives {check.target:g} MPa"
+        said += f"; load x: factor on the load that gives {check.target:g} MPa"
         stresses = [one.printed_stress for one in table.rows]
         nearest = min(stresses, key=lambda stress: abs(stress - check.target))
         said += f"; nearest {nearest:.3f} MPa, {100.0 * (nearest / check.target - 1.0):+.2f} %"
-    return ["  Inputs combined", *table.lines(""), row("", said)]
+    return ["  Combinations of inputs", *table.lines(""), row("", said)]
 
 
 def _changes(check: HertzCheck, table: AnswerTable[Any]) -> list[str]:
-    return [f"  What one key alone must be for {check.target:g} MPa", *table.lines("    ")]
+    return [f"  Value of one key, all others unchanged, for {check.target:g} MPa", *table.lines("    ")]
 
 
 def _comparison(check: HertzCheck, table: AnswerTable[tuple[str, ComparisonColumn]]) -> list[str]:
@@ -97,7 +98,7 @@ def _comparison(check: HertzCheck, table: AnswerTable[tuple[str, ComparisonColum
             continue
         values = ", ".join(map(str, column.candidates)) or "no whole value"
         said.append(
-            f"the lost finite-element cell of {name}: {values} MPa has the printed "
+            f"missing finite-element value for {name}: {values} MPa gives the printed "
             f"{column.printed_percent:g} %"
         )
     lines = table.lines("    ")

@@ -224,6 +224,6 @@ def check_order(wheel: Wheel, place: str, pitch_radius: float) -> None:
     limit = wheel.greatest_error_angle
     if wheel.error_angle >= limit:
         raise GeometryError(
-            f"{place}: pitch_error_mm must be below {limit * pitch_radius:.4g} mm, where two teeth change "
-            f"places, but is {wheel.error_angle * pitch_radius:g} mm: lower it"
+            f"{place}: pitch_error_mm must be below {limit * pitch_radius:.4g} mm, where two teeth would "
+            f"swap places, but is {wheel.error_angle * pitch_radius:g} mm: lower it"
         )

@@ -32,13 +32,13 @@ class WheelTable(Table):
         if 2 * self.error_order > self.teeth:
             message = (
                 f"must be at most half the teeth, {self.teeth // 2}, is {self.error_order}: the teeth "
-                "show no more waves than that"
+                "cannot represent more waves"
             )
             return [("error_order", message)]
         if 2 * self.error_order == self.teeth and self.error_phase_deg % 180.0 == 0.0:
             message = (
-                "must not be a multiple of 180 for an error_order of half the teeth, which are all on "
-                "zeros of the error then: take 90"
+                "must not be a multiple of 180 for an error_order of half the teeth, because all teeth "
+                "would be at zeros of the error: use 90"
             )
             return [("error_phase_deg", message)]
         return []

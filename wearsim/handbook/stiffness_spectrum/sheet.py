@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _COUNTED = {
-    "pairs": "only teeth that mate touch, and only while both are in their pulses of contact",
-    "double_sum": "every tooth in its pulse touches every such tooth of the other wheel, as the source "
-    "sums: two pairs in mesh count as four contacts",
+    "pairs": "only mating teeth touch, and only while the contact intervals of both overlap",
+    "double_sum": "as in the source, every tooth in its contact interval touches every such tooth of the "
+    "other gear: two pairs in mesh count as four contacts",
 }
 _ASSUMPTIONS = (
-    "a pitch error moves the pulse of its tooth but changes neither its length nor the load sharing",
+    "a pitch error shifts the contact of its tooth but changes neither its length nor the load sharing",
     "the teeth are standard spur teeth without profile shift, in contact between the tip circles",
     "two-sided is |S| of exp(2 pi j f t), one-sided the amplitude 2|S| of the cosine",
 )
@@ -108,7 +108,7 @@ def _text(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> str:
         mean += f" (closed form {spectrum.series_mean:.6g})"
     shown = tables.spectrum.lines_shown
     strongest = sorted(spectrum.lines, key=lambda line: -line.two_sided)[:shown]
-    period = f"{pair.pinion_turns} turns of the pinion, {pair.wheel_turns} of the wheel"
+    period = f"{pair.pinion_turns} revolutions of the pinion, {pair.wheel_turns} of the wheel"
     frequency = spectrum.mesh_frequency
     rows = [
         Finding("Contact", f"ratio {pair.contact_ratio:.6g}; mean {mean}; model {tables.spectrum.model}"),
@@ -120,8 +120,8 @@ def _text(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> str:
         ),
         Finding(
             "Lines",
-            f"the {len(strongest)} strongest of {len(spectrum.lines)}; all of them hold "
-            f"{100.0 * spectrum.variance_share:.3g} % of the variance of the contacts",
+            f"the {len(strongest)} strongest of {len(spectrum.lines)}; all lines contain "
+            f"{100.0 * spectrum.variance_share:.3g} % of the variance of the number of contacts",
         ),
     ]
     ordered = _lines_table(spectrum, sorted(strongest, key=lambda line: line.harmonic))
@@ -150,7 +150,7 @@ def _warnings(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> l
     if spectrum.beyond_involute:
         warnings.append(
             f"the tips of the {spectrum.beyond_involute} reach beyond the involute of the mate: the "
-            "contact ratio counts a path that is not there; take more teeth or a larger pressure_angle_deg"
+            "contact ratio includes a path that does not exist; use more teeth or a larger pressure_angle_deg"
         )
     free = float(spectrum.contacts.widths[spectrum.contacts.values == 0.0].sum()) / math.tau
     if free > 0.0:
@@ -162,7 +162,7 @@ def _warnings(tables: StiffnessSpectrumTables, spectrum: StiffnessSpectrum) -> l
     if given.get("energy_exponent", 2.5) != 2.5:
         warnings.append(
             "energy_exponent: radii and modulus give the constant of a point contact, whose exponent is "
-            f"2.5; with {given['energy_exponent']:g} it is only a number"
+            f"2.5; with {given['energy_exponent']:g} the constant has no physical meaning"
         )
     formula = tables.spectrum.formula or "corrected"
     if formula != "corrected":

@@ -32,7 +32,7 @@ def strength_figure(title: str, pair: PairStrength) -> Figure:
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
     upper.set_title(literal(title), fontsize=9, loc="left")
     upper.annotate(
-        "life asked for",
+        "required life",
         (pair.hours, 1.0),
         (3, -3),
         xycoords=("data", "axes fraction"),
@@ -65,7 +65,7 @@ def _draw_acting(panel: Axes, pair: PairStrength, stresses: Sequence[StressCheck
     for gear, one in zip(pair.gears, stresses, strict=False):
         colour = "black" if alike else _COLOURS[gear.name]
         if not alike or gear is pair.gears[0]:
-            label = "acts" if alike else f"acts, {gear.name}"
+            label = "acting" if alike else f"acting, {gear.name}"
             panel.axhline(one.lasting, color=colour, linestyle="--", linewidth=1.2, label=label)
         first, last = shown_hours(pair)
         if not one.life.bound and first <= one.life.hours <= last:

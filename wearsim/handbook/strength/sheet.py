@@ -53,12 +53,12 @@ def _endured_lines(endured: list[Endurance], letter: str) -> list[str]:
     factors = [f"{e.factor:.4f} ({e.raw_factor:.4f})" for e in endured]
     return [
         _columns(f"  endurance limit sigma_{letter}lim, MPa", limits),
-        _columns(f"  equivalence mu_{letter}", [f"{e.equivalence:.4g}" for e in endured]),
+        _columns(f"  equivalence factor mu_{letter}", [f"{e.equivalence:.4g}" for e in endured]),
         _columns(f"  equivalent cycles N_{letter}E", [f"{e.equivalent_cycles:.4g}" for e in endured]),
         _columns(f"  base cycles N_{letter}G", [f"{e.curve.base_cycles:.4g}" for e in endured]),
-        _columns(f"  life factor K_{letter}L (without its limits)", factors),
+        _columns(f"  life factor K_{letter}L (before limits)", factors),
         _columns(f"  allowable [sigma]_{letter}, MPa", [f"{e.allowable:.1f}" for e in endured]),
-        _columns(f"  in an overload [sigma]_{letter}max, MPa", greatest),
+        _columns(f"  allowable at overload [sigma]_{letter}max, MPa", greatest),
     ]
 
 
@@ -73,24 +73,24 @@ def _acting_lines(acting: list[StressCheck], letter: str) -> list[str]:
         return []
     peaks = ["not known" if math.isnan(s.peak_margin) else f"{s.peak_margin:.3f}" for s in acting]
     return [
-        _columns(f"  acts sigma_{letter}, MPa", [f"{s.lasting:.1f}" for s in acting]),
-        _columns("  allowable over acting", [f"{s.margin:.3f}" for s in acting]),
-        _columns(f"  acts in an overload sigma_{letter}max, MPa", [f"{s.peak:.1f}" for s in acting]),
-        _columns("  allowable over acting in an overload", peaks),
-        _columns("  allowed for", [_hours(s.life) for s in acting]),
+        _columns(f"  acting sigma_{letter}, MPa", [f"{s.lasting:.1f}" for s in acting]),
+        _columns("  margin, allowable over acting", [f"{s.margin:.3f}" for s in acting]),
+        _columns(f"  acting at overload sigma_{letter}max, MPa", [f"{s.peak:.1f}" for s in acting]),
+        _columns("  margin at overload", peaks),
+        _columns("  allowed running time", [_hours(s.life) for s in acting]),
     ]
 
 
 def _hours(life: EnduredHours) -> str:
     if life.bound:
         return f"> {grouped(life.hours)} h"
-    return f"{grouped(life.hours)} h" if life.hours > 0.0 else "at no time"
+    return f"{grouped(life.hours)} h"
 
 
 def _findings(tables: StrengthTables, pair: PairStrength) -> list[Finding]:
     governs = pair.contact_governs
-    allowed = f"[sigma]_H = {governs.contact.allowable:.1f} MPa, that of the {governs.name}"
-    lines = [Finding("Pair", f"{allowed}, for {grouped(pair.hours)} h; loads: {pair.spectrum.name}")]
+    allowed = f"[sigma]_H = {governs.contact.allowable:.1f} MPa (limited by the {governs.name})"
+    lines = [Finding("Pair", f"{allowed} for {grouped(pair.hours)} h; load: {pair.spectrum.name}")]
     if pair.load is not None:
         contact, bending = zip(*pair.stresses, strict=True)
         lines += [
@@ -104,8 +104,8 @@ def _findings(tables: StrengthTables, pair: PairStrength) -> list[Finding]:
 def _load_findings(load: ToothLoad) -> list[Finding]:
     mesh, contact, bending = load.mesh, load.contact_factor, load.bending_factor
     factors = (
-        f"K_A {contact.application:g}, face {contact.face:.4g}, teeth {contact.transverse:.4g}, mesh "
-        f"{contact.dynamic:g}"
+        f"K_A {contact.application:g}, face {contact.face:.4g}, transverse {contact.transverse:.4g}, "
+        f"dynamic {contact.dynamic:g}"
     )
     return [
         Finding(
@@ -115,9 +115,9 @@ def _load_findings(load: ToothLoad) -> list[Finding]:
         ),
         Finding(
             "Contact",
-            f"sigma_H = {load.corrected_contact_stress:.1f} MPa by the normal force, "
-            f"{load.printed_contact_stress:.1f} MPa by the tangential one as printed; the "
-            f"{'first' if load.contact_stress == load.corrected_contact_stress else 'second'} counts",
+            f"sigma_H = {load.corrected_contact_stress:.1f} MPa from the normal force, "
+            f"{load.printed_contact_stress:.1f} MPa from the tangential force as printed; the "
+            f"{'first' if load.contact_stress == load.corrected_contact_stress else 'second'} is used",
         ),
     ]
 
@@ -126,15 +126,15 @@ def _lives(acting: Sequence[StressCheck], pair: PairStrength, what: str) -> str:
     """Say which gear is the first to reach its life by one kind of fatigue."""
     place, life = first_life([one.life for one in acting])
     if life.bound:
-        return f"{what} fatigue: {_hours(life)}, neither gear ever reaches its limit"
-    return f"{what} fatigue: {_hours(life)}, the {pair.gears[place].name} is the first"
+        return f"{what} fatigue: {_hours(life)}, neither gear reaches its limit"
+    return f"{what} fatigue: {_hours(life)}, {pair.gears[place].name} first"
 
 
 def _assumptions(tables: StrengthTables, load: ToothLoad | None) -> tuple[str, ...]:
     reading = tables.fatigue.base_cycles
     found = [
         f"N_HG follows {'GOST 21354' if reading == 'gost' else 'the surviving text of the source'}",
-        "1 HRC counts as 10 HB; hardness and endurance limit are the middle of their ranges",
+        "1 HRC is taken as 10 HB; hardness and endurance limit are at the middle of their ranges",
     ]
     if tables.fatigue.long_life == "gost":
         found.append("beyond N_HG the allowable contact stress falls with the 20th root, down to 0.75 (GOST)")
@@ -280,13 +280,13 @@ def _input_warnings(tables: StrengthTables, pair: PairStrength) -> list[str]:
             found.append(f"{gear.name}.hardness_{gear.treatment.scale}: {outside}")
         if not 1.4 <= table.bending_safety <= 2.2:
             found.append(
-                f"{gear.name}.bending_safety: the source takes 1.4 to 2.2, but it is {table.bending_safety:g}"
+                f"{gear.name}.bending_safety: the source uses 1.4 to 2.2 (got {table.bending_safety:g})"
             )
     factor, cycles = tables.overload.overload_frequency_factor, pair.spectrum.peak_cycles
     if factor > 1.0 and cycles >= 1e3:
         found.append(
-            f"overload.overload_frequency_factor: {factor:g} is for single overloads, but this one acts for "
-            f"{cycles:g} cycles: the source then takes 1"
+            f"overload.overload_frequency_factor: {factor:g} applies to single overloads, but this one lasts "
+            f"{cycles:g} cycles; the source then uses 1"
         )
     return found
 
@@ -310,12 +310,12 @@ def _strength_warnings(pair: PairStrength, gear: GearEndurance, name: str, one: 
         )
     if one.peak_margin < 1.0:
         found.append(
-            f"{gear.name}: the {name} stress in an overload of {one.peak:.1f} MPa exceeds the "
+            f"{gear.name}: the {name} stress at overload, {one.peak:.1f} MPa, exceeds the "
             f"{one.endurance.greatest:.1f} MPa allowed"
         )
     if pair.peak > 1.0 and math.isnan(one.peak_margin):
         found.append(
-            f"{gear.name}: {name} in an overload cannot be judged: give "
+            f"{gear.name}: {name} at overload cannot be checked: give "
             f"{gear.name}.yield_strength_MPa or {gear.name}.greatest_{name}_MPa"
         )
     return found

@@ -120,7 +120,7 @@ def field_figure(
         shown: tuple[tuple[str, Vector, Mapping[float, str]], ...] = (
             ("radius of the pinion's profile, mm", contacts.pinion_curvature, _curvatures()),
             ("radius of the wheel's profile, mm", contacts.wheel_curvature, _curvatures()),
-            ("line of action to the normal, deg", np.degrees(contacts.direction), _plain(_ANGLES)),
+            ("angle from normal to line of action, deg", np.degrees(contacts.direction), _plain(_ANGLES)),
             ("specific sliding of the pinion", contacts.pinion_specific_sliding, _plain(_SLIDING)),
             ("specific sliding of the wheel", contacts.wheel_specific_sliding, _plain(_SLIDING)),
             ("sliding speed, mm/s", pair.speed * contacts.sliding, {}),
@@ -131,7 +131,7 @@ def field_figure(
             panel.plot(*line.contacts.points.T, color="black", linewidth=2.0)
         panel.set_title(label, fontsize=9, loc="left")
     _axes_labels(panels.reshape(2, 3))
-    size = "great" if family == 1 else "small"
+    size = "large" if family == 1 else "small"
     note = f"family {family:+d}, {size} radii; hatched: no such profiles; thick: line of action"
     figure.suptitle(literal(f"{title}: {note}"), fontsize=10, x=0.01, ha="left")
     return figure

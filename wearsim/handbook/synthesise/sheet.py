@@ -20,8 +20,8 @@ from wearsim.report.calculation_sheet import CalculationSheet
 from wearsim.report.text_lines import Finding, answer_text
 
 _ASSUMPTIONS = (
-    "the wheels are rigid, one pair of teeth carries the whole load, and there is no friction",
-    "the profiles touch as two cylinders with the radii of curvature at that point do (Hertz)",
+    "the gears are rigid, one pair of teeth carries the whole load, and there is no friction",
+    "the contact is that of two cylinders with the radii of curvature of the profiles (Hertz)",
     "the equations are derived here: only the conclusions of Babichev (2012) survive",
 )
 
@@ -192,9 +192,9 @@ _HEAD = (
 
 def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd.DataFrame) -> str:
     circles, load, angle = pair.circles, pair.load, _pitch_point_angle(pair)
-    kind = "at a pressure angle of 0, constant torque" if load.power else "at every angle"
+    kind = "at a pressure angle of 0, constant torque" if load.power else "at any angle"
     requested = f"{float(pair.stress.at(0.0)):.6g} MPa "
-    takes = "is too little" if angle is None else f"takes a pressure angle of {angle:.6g} deg"
+    takes = "is too low" if angle is None else f"requires a pressure angle of {angle:.6g} deg"
     parts: list[object] = [
         title,
         Finding(
@@ -204,7 +204,7 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd
         ),
         Finding(
             "Stress",
-            f"at least {pair.least_pitch_point_stress:.6g} MPa at the pitch point (at "
+            f"minimum {pair.least_pitch_point_stress:.6g} MPa at the pitch point (at "
             f"{math.degrees(load.best_pitch_point_angle):g} deg); {requested}{takes}",
         ),
     ]
@@ -217,12 +217,12 @@ def _text(title: str, pair: LoadedPair, phases: Sequence[MeshPhase], indices: pd
 
 
 def _phase(phase: MeshPhase, rows: pd.DataFrame) -> str:
-    where = "through the pitch point" if phase.through_pitch_point else "beside the pitch point"
-    size = "great" if phase.family == 1 else "small"
+    where = "through the pitch point" if phase.through_pitch_point else "not through the pitch point"
+    size = "large" if phase.family == 1 else "small"
     compared = math.degrees(phase.involute.contacts.pressure_angle[0])
     text = (
         f"{where}, family {phase.family:+d} ({size} radii): pinion {_form(rows, 'pinion')}, wheel "
-        f"{_form(rows, 'wheel')}; involute of {compared:.4g} deg beside it"
+        f"{_form(rows, 'wheel')}; compared with an involute of {compared:.4g} deg"
     )
     if phase.inner_end is None:
         return text
@@ -253,11 +253,11 @@ def _warnings(indices: pd.DataFrame) -> Iterable[str]:
         steepest = rows["pressure_angle_deg"].max()
         if steepest > _STEEP:
             yield (
-                f"phase {number}: the pressure angle reaches {steepest:.1f} deg: the force on the "
-                "bearings grows with it, and teeth get pointed"
+                f"phase {number}: the pressure angle reaches {steepest:.1f} deg: bearing "
+                "forces are high, and teeth become pointed"
             )
         if rows["involute_contact_stress_MPa"].isna().any():
             yield (
-                f"phase {number}: the involute interferes over part of these distances, and its stress is "
-                "left out there"
+                f"phase {number}: the involute interferes over part of this range; its stress is "
+                "omitted there"
             )

@@ -99,7 +99,7 @@ METHODS = (
     DiameterMethod(
         "rim_bending",
         "[5]",
-        "endurance of the rim",
+        "fatigue of the rim",
         rim_bending_diameter,
         {},
         {
@@ -112,7 +112,7 @@ METHODS = (
     DiameterMethod(
         "rim_endurance",
         "[6]",
-        "endurance of the rim",
+        "fatigue of the rim",
         rim_endurance_diameter,
         {"safety_factor": (1.6, 1.7)},
         {

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _ASSUMPTIONS = (
-    "the formulas are those of six textbooks as Tkachenko (2010) collected them; part of its tables is lost",
+    "the formulas are from six textbooks, as collected by Tkachenko (2010); some of its tables are lost",
     "the range of a method covers the values that the source recommends for its own keys, with all "
     "others as given",
     "two printed formulas cannot give the diameters printed with them; unless formula = printed, they "
@@ -79,7 +79,7 @@ def _row(one: MethodDiameter) -> dict[str, Any]:
 
 
 def _text(title: str, found: Sequence[MethodDiameter]) -> str:
-    head = f"{'method':18s}{'of':5s}{'limits':26s}{'d, mm':>8s}{'range, mm':>15s}{'rank':>9s}"
+    head = f"{'method':18s}{'ref.':5s}{'criterion':26s}{'d, mm':>8s}{'range, mm':>15s}{'rank':>9s}"
     lines = [title, "", f"  {head}{'published':>11s}"]
     for one in found:
         span = f"{one.least:.1f}-{one.greatest:.1f}" if one.greatest > one.least else "-"
@@ -112,26 +112,26 @@ def _warnings(found: Sequence[MethodDiameter]) -> list[str]:
     warnings = []
     if max(diameters) > 1.3 * min(diameters):
         warnings.append(
-            f"the methods differ by a factor of {max(diameters) / min(diameters):.2f}: they limit "
-            "different things with different safety; take the one whose limits you know"
+            f"the methods differ by a factor of {max(diameters) / min(diameters):.2f}: they apply "
+            "different criteria with different safety factors; use the one whose allowable values you know"
         )
     for one in found:
         if one.as_printed:
             warnings.append(
-                f"{one.method.name}: the formula as printed is wrong: it cannot give the diameter that is "
-                "printed with it; take formula = corrected"
+                f"{one.method.name}: the formula as printed is wrong: it does not give the diameter "
+                "printed with it; use formula = corrected"
             )
         ranges = {**one.method.ranges, **one.method.drive_ranges}
         for key, value in one.outside.items():
             low, high = ranges[key]
             warnings.append(
-                f"{one.method.name}: {key} = {value:g} is outside {low:g}-{high:g}, for which the method "
-                "is stated"
+                f"{one.method.name}: {key} = {value:g} is outside {low:g}-{high:g}, the range stated for "
+                "the method"
             )
         steepest = max(one.elasticity.items(), key=lambda item: abs(item[1]))
         if abs(steepest[1]) > 1.01:
             warnings.append(
-                f"{one.method.name}: 1 % of {steepest[0]} moves the diameter by {abs(steepest[1]):.2g} %: "
-                "it rests on a small difference"
+                f"{one.method.name}: 1 % of {steepest[0]} changes the diameter by {abs(steepest[1]):.2g} %: "
+                "it is a small difference of large numbers"
             )
     return warnings

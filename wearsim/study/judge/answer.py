@@ -30,7 +30,7 @@ _ALLOWED: dict[str, Allowed] = {"particles": Range(100, 20_000, whole=True)}
 
 @dataclass(frozen=True, repr=False, eq=False)
 class JudgementResult(DrawnAnswer):
-    """Laws of wear, fitted to a part of some readings and scored by the rest.
+    """Laws of wear, fitted to some of the readings and scored on the rest.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class JudgementResult(DrawnAnswer):
 
     @property
     def headline(self) -> str:
-        """Which law to take, and whether it is good enough."""
+        """The preferred law, and whether it is good enough."""
         return verdict(self.found)
 
     @property
@@ -67,7 +67,7 @@ class JudgementResult(DrawnAnswer):
 
     @property
     def laws(self) -> "pd.DataFrame":
-        """A row for each law and kind of scatter: its score, its bands, whether it is told from the best."""
+        """A row for each law and kind of scatter: its score, its bands, whether it is tied with the best."""
         return laws_table(self.found).frame()
 
     @property
@@ -105,7 +105,7 @@ def judge(
     particles: int = PARTICLES,
     progress: Progress = silent,
 ) -> JudgementResult:
-    """Fit every law of wear that applies to a part of some readings, and score it by the rest.
+    """Fit every applicable law of wear to some of the readings, and score it on the rest.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def judge(
     ... ]
     >>> found = wearsim.judge(rows, particles=200)
     >>> found.headline
-    'Archard is good enough: its bands hold what they should'
+    'Archard is good enough: its bands hold the expected share of readings'
     """
     check_ranges("judge", {"particles": particles}, _ALLOWED)
     with readings_file(readings) as file:

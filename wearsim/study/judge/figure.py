@@ -37,7 +37,7 @@ def _readings(panel: Axes, found: Judgement) -> None:
             (panel.set_xscale if axis is panel.xaxis else panel.set_yscale)("log")
             number_ticks(axis)
     panel.set_title(
-        "full: fitted, open: held out; lines and bands of 90 %: forecast by the best law,\n"
+        "filled: fitted, open: held out; lines and 90 % bands: forecast by the best law,\n"
         f"{found.best.law} ({found.best.scatter})",
         fontsize=8,
         loc="left",
@@ -79,5 +79,5 @@ def _scores(panel: Axes, found: Judgement) -> None:
         label.set_color(colour if colour != "0.6" else "black")
     panel.set_xscale("symlog", linthresh=1.0)
     panel.set_xlim(left=0.0)
-    panel.set_xlabel("log score behind the best law\n(blue: not distinguishable from it)")
+    panel.set_xlabel("log score behind the best law\n(blue: tied with it)")
     panel.grid(alpha=0.3, axis="x")

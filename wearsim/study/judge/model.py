@@ -45,7 +45,7 @@ _BATCHES = 8
 
 @dataclass(frozen=True)
 class FittedConstant:
-    """A constant of a law or its scatter: 5, 50 and 95 % points of what the readings leave possible."""
+    """A constant of a law or of its scatter: 5, 50 and 95 % points of its posterior distribution."""
 
     name: str
     low: float
@@ -55,7 +55,7 @@ class FittedConstant:
 
 @dataclass(frozen=True, eq=False)
 class JudgedLaw:
-    """A law with one kind of scatter, and how well it foretold what was held out."""
+    """A law with one kind of scatter, and how well it predicted the held-out readings."""
 
     law: str
     formula: str
@@ -77,7 +77,7 @@ class JudgedLaw:
 
     @property
     def tied(self) -> bool:
-        """Whether the readings do not tell it from the best one."""
+        """Whether its score is that of the best one within the standard error."""
         return self.behind <= max(self.behind_error, _NO_DIFFERENCE)
 
 
@@ -95,26 +95,26 @@ class Judgement:
 
     @property
     def ties(self) -> tuple[str, ...]:
-        """Names of the laws that are not told apart from the best one, this included."""
+        """Names of the laws tied with the best one, this included."""
         return tuple(dict.fromkeys(one.law for one in self.laws if one.tied))
 
     @property
     def simplest(self) -> JudgedLaw:
-        """The law with the fewest constants among those not told apart, of these the best one."""
+        """The preferred law: of those tied with the best, the one with the fewest constants."""
         return min((one for one in self.laws if one.tied), key=lambda one: len(one.constants))
 
     @property
     def objections(self) -> tuple[str, ...]:
-        """Why the simplest law is not good enough; empty where it is."""
+        """Why the preferred law is not good enough; empty where it is."""
         found, taken = [], self.simplest
         if NO_LAW in self.ties:
-            found.append("no law foretells better than that wear neither grows nor depends on the load")
+            found.append("no law predicts better than constant wear, independent of exposure and load")
         coverages = zip((50, 90), (taken.coverage_50, taken.coverage_90), taken.by_chance, strict=True)
         for share, held, (low, high) in coverages:
             if held < low or held > high:
                 found.append(
-                    f"the band of {share} % of {taken.law} holds {100 * held:.0f} %, by chance "
-                    f"{100 * low:.0f} to {100 * high:.0f} %"
+                    f"the {share} % band of {taken.law} holds {100 * held:.0f} % of the readings "
+                    f"({100 * low:.0f} to {100 * high:.0f} % expected by chance)"
                 )
         return tuple(found)
 
@@ -125,7 +125,7 @@ def judge_series(
     wanted: Callable[[str, str], bool] = lambda law, scatter: True,
     progress: Callable[[float], None] = lambda part: None,
 ) -> Judgement:
-    """Return how every law that applies foretells the readings held out, fitted to the others.
+    """Return how well every applicable law predicts the held-out readings, fitted to the others.
 
     Parameters
     ----------

@@ -60,7 +60,7 @@ def read_series(path: Path) -> WearSeries:
         if not problems:
             readings.append(_reading(texts, exposure, wear, line))
     if len(lines) - 1 > _MOST_ROWS:
-        faults.append(_fault(f"must hold at most {_MOST_ROWS} readings: leave some out", path))
+        faults.append(_fault(f"must have at most {_MOST_ROWS} readings: remove some", path))
     if not faults:
         readings = readings if "held_out" in head else _later_half_held_out(readings)
         faults = [_fault(text, path) for text in _set_faults(readings, "held_out" in head)]
@@ -75,7 +75,7 @@ def _fall(fall: WearFall, path: Path, wear: str) -> str:
     return (
         f"{path.name}:{later.line}: {wear}: {later.wear:g} of series {later.series!r} is below "
         f"{earlier.wear:g} of line {earlier.line}, by more than gauge and scatter explain: wear does not "
-        "fall, correct it, or give a part that was new in between a series of its own"
+        "fall, correct it, or give a replacement part a series of its own"
     )
 
 
@@ -119,7 +119,7 @@ def _cell_faults(texts: dict[str, str], exposure: str, wear: str) -> list[tuple[
             continue
         if not _LEAST <= _number(text) <= _MOST and not (optional and _number(text) == 0.0):
             hint = (
-                "leave out what the gauge cannot tell, or set censored = below"
+                "delete readings below the resolution of the gauge, or set censored = below"
                 if column == wear
                 else "correct it"
             )
@@ -175,16 +175,16 @@ def _later_half_held_out(readings: list[WearReading]) -> list[WearReading]:
 def _set_faults(readings: list[WearReading], stated: bool) -> list[str]:
     """Return why the readings as a whole cannot be judged."""
     if not readings:
-        return ["must hold at least one reading below its header: write them"]
+        return ["must have at least one reading below its header: add some"]
     fitted = sum(not one.held_out and not one.censored for one in readings)
     held = sum(one.held_out for one in readings)
     hint = "change held_out" if stated else "add later readings of a series, or a column held_out"
     found = []
     if not held:
-        found.append(f"must hold readings to judge by, has none held out: {hint}")
+        found.append(f"must have held-out readings for scoring, has none: {hint}")
     if fitted < _LEAST_FITTED:
         found.append(
-            f"must hold at least {_LEAST_FITTED} readings to fit, neither censored nor held out "
+            f"must have at least {_LEAST_FITTED} readings to fit, neither censored nor held out "
             f"(has {fitted}): add some"
         )
     return found

@@ -14,7 +14,7 @@ from wearsim.study.judge.model import FittedConstant, JudgedLaw, Judgement
 ASSUMPTIONS = (
     "wear is log-normal about a law, with one factor for each series and one for each reading",
     "bands include the uncertainty of the constants (sequential Monte Carlo)",
-    "before any reading each constant is expected within the range listed in docs/judge.md",
+    "prior range of each constant: see docs/judge.md",
 )
 
 
@@ -23,12 +23,12 @@ def judgement_text(found: Judgement, explain: bool = False) -> str:
     data, taken = found.data, found.simplest
     held = int(data.held_out.sum())
     rows = [
-        Finding("Readings", f"{data.wear.size} in {len(data.names)} series; {held} held out to judge by"),
+        Finding("Readings", f"{data.wear.size} in {len(data.names)} series; {held} held out for scoring"),
         Finding("Best law", _described(found.best)),
         Finding(
-            "As good", ", ".join(found.ties[1:]) or "none: the readings distinguish it from all other laws"
+            "Tied with", ", ".join(found.ties[1:]) or "none: it scores clearly better than all other laws"
         ),
-        *([Finding("Take", f"{_described(taken)}, the simplest of them")] if taken is not found.best else []),
+        *_preferred(found),
         *([Finding("Constants", "; ".join(map(_constant, taken.constants)))] if taken.constants else []),
         Finding("Scatter", "; ".join(map(_constant, taken.deviations)) + ", of ln(wear)"),
         Finding("Verdict", verdict(found)),
@@ -37,11 +37,17 @@ def judgement_text(found: Judgement, explain: bool = False) -> str:
     return answer_text(*rows, "", laws_table(found))
 
 
+def _preferred(found: Judgement) -> list[Finding]:
+    if found.simplest is found.best:
+        return []
+    return [Finding("Preferred", f"{_described(found.simplest)}, the simplest of these")]
+
+
 def verdict(found: Judgement) -> str:
-    """Return in words whether the best law is good enough."""
+    """Return in words whether the preferred law is good enough."""
     if found.objections:
         return "no law is good enough: " + "; ".join(found.objections)
-    return f"{found.simplest.law} is good enough: its bands hold what they should"
+    return f"{found.simplest.law} is good enough: its bands hold the expected share of readings"
 
 
 def _described(one: JudgedLaw) -> str:
@@ -118,7 +124,7 @@ def constants_table(found: Judgement) -> pd.DataFrame:
 
 
 def forecasts_table(found: Judgement) -> pd.DataFrame:
-    """Return every reading beside what the best law says of it."""
+    """Return every reading beside its forecast by the best law."""
     data = found.data
     bands = dict(zip(("p05", "p25", "p50", "p75", "p95"), found.best.bands, strict=True))
     return pd.DataFrame(
