@@ -24,6 +24,9 @@ _UNCLEAR = 0.012
 _OTHER = 1.5
 """Depth of the flank that is to be the less worn over that of the other, from which the form is wrong."""
 
+_PLAIN = 0.02
+"""Depth over the pitch that no error explains."""
+
 _SCALES_DIFFER = (0.01, 0.05)
 """Relative difference of two scales that is doubtful, and that is wrong."""
 
@@ -94,7 +97,8 @@ def _check_fit(photograph: Photograph, depths: FlankDepths) -> None:
             f"the scale of {place.known.words} and that of the teeth must agree, but differ by "
             f"{100.0 * (place.known.scale / place.form_scale - 1.0):+.1f} %: check both, and the profile",
         )
-    if depths.other_depth > max(_OTHER * depths.depth, 0.0) + 3.0 * depths.depth_error:
+    doubtful = min(3.0 * depths.depth_error, _PLAIN * place.wheel.pitch)
+    if depths.other_depth > max(_OTHER * depths.depth, 0.0) + doubtful:
         raise bad_photograph(
             photograph.name,
             "the wheel must have the new form that is said but for its wear, but neither flank of its teeth "

@@ -109,10 +109,16 @@ def _findings(found: ScannedWheel) -> Iterator[Finding]:
     )
     yield Finding("Other flank", f"{max(depths.other_depth, 0.0):.3f} mm where it is deepest")
     if (pins := over_pins(depths)) is not None:
+        is_less = pins.decrease > SURE * pins.error
+        less = (
+            f"{pins.decrease:.3f} mm less than the new form"
+            if is_less
+            else "as the new form, within the error"
+        )
         yield Finding(
             "Over pins",
             f"{pins.size:.3f} mm +- {pins.error:.3f} with pins of the roller's diameter, "
-            f"{pins.pin_diameter:g} mm: {pins.decrease:.3f} mm less than the new form",
+            f"{pins.pin_diameter:g} mm: {less}",
         )
     yield Finding("New form", f"fits within {depths.misfit:.3f} mm where the wheel is not worn")
     by = (
