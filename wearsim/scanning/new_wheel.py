@@ -31,7 +31,7 @@ class NewWheel:
     pitch: float  # of the chain [mm]
     gap: Vector  # points of a gap about +y, from its right tip to its left one [mm], shape (n, 2)
     words: str  # which form it is
-    roller_diameter: float | None  # of the chain [mm]; None where no chain is known
+    roller_diameter: float | None = None  # of the chain [mm]; None where no chain is known
     per_case: bool = False  # whether the number of teeth was said, not counted
 
     @property
