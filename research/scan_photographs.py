@@ -126,15 +126,14 @@ def trial(seed: int, of_wearsim: Callable[[np.random.Generator], tuple[Points, f
     rng = np.random.default_rng(seed)
     chain, pitch, roller, form = FORMS[(seed + seed // len(KINDS_OF)) % len(FORMS)]
     teeth, kind = int(rng.integers(9, 61)), KINDS_OF[seed % len(KINDS_OF)]
-    form_of = {"chain": chain, "profile": form}
+    form_of: dict[str, Any] = {"chain": chain, "profile": form}
     if kind == BY_WEARSIM:
-        (chain, *_, form), teeth = FORMS[0], 19
-        form_of = {"chain": chain, "profile": form}
+        teeth, form_of = 19, {"chain": FORMS[0][0], "profile": FORMS[0][3]}
         gap, depth = of_wearsim(rng)
     elif kind == EVOLUTE:
         pitch, teeth = FORMS[0][1], int(rng.integers(15, 31))
-        form_of["case"], new = evolute_wheel(teeth)
-        form_of = {"case": form_of["case"]}
+        case, new = evolute_wheel(teeth)
+        form_of = {"case": case}
         gap, depth = pocketed(rng, new, pitch, kind)
     else:
         gap, depth = pocketed(rng, new_gap(pitch, roller, teeth, form), pitch, kind)
