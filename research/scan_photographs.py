@@ -9,8 +9,9 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,17 @@ from wearsim.report.flank_view import flanks
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 
-from photographs import Camera, Points, new_gap, picture, random_camera, wheel, with_pocket  # noqa: E402
+from photographs import (  # noqa: E402
+    Camera,
+    Points,
+    chain_on,
+    new_gap,
+    picture,
+    random_camera,
+    wheel,
+    with_pocket,
+    with_worn_tips,
+)
 
 PAGE = ROOT / "reports" / "reference" / "scan.md"
 SEEDS, EVERY = 500, 10
@@ -30,7 +41,20 @@ FORMS = (
     ("16B", 25.4, 15.88, "iso606"),
     ("ПР-25,4-60", 25.4, 15.88, "gost591"),
 )
-LEAST_WIDTH, PIXELS_A_TOOTH = 700, 40
+LEAST_WIDTH, PIXELS_A_TOOTH = 700, 30
+CASE = "08b-19t-wrap"
+POCKET, BY_WEARSIM, CHAIN, EVOLUTE, BOTH, TIPS, CUT = (
+    "a pocket in a standard form",
+    f"worn by wearsim (`{CASE}`)",
+    "a chain on a part of the rim",
+    "a pocket in an evolute form, asymmetric",
+    "both flanks worn",
+    "worn tips too",
+    "cut off by the picture",
+)
+KINDS_OF = (CHAIN, EVOLUTE, BOTH, TIPS, BY_WEARSIM, CUT, *[POCKET] * 3, BY_WEARSIM)
+KINDS_OF += (*[POCKET] * 4, BY_WEARSIM) * 2
+"""Of 20 pictures."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +64,7 @@ class Trial:
     camera: Camera
     depth: float  # true one [mm]
     left: bool  # whether the flank that faces clockwise in the picture is worn
-    worn_by_wearsim: bool
+    kind: str
     refusal: str = ""
     counted: bool = True  # whether the teeth were
     found: float = math.nan  # [mm]
@@ -61,15 +85,27 @@ class Trial:
         return (self.found - self.depth) / self.error
 
 
-def pocketed(
-    rng: np.random.Generator, pitch: float, roller: float, teeth: int, form: str
-) -> tuple[Points, float]:
+def pocketed(rng: np.random.Generator, new: Points, pitch: float, kind: str) -> tuple[Points, float]:
     """Return a gap whose left side is worn, and often a little its right one, with the depth [mm]."""
     depth = 0.0 if rng.random() < 0.1 else pitch * rng.uniform(0.003, 0.04)
-    gap = with_pocket(new_gap(pitch, roller, teeth, form), depth, rng.uniform(0.62, 0.8), 0.17)
-    if rng.random() < 0.6:
-        gap = with_pocket(gap[::-1] * [-1.0, 1.0], 0.15 * depth, 0.7, 0.1)[::-1] * [-1.0, 1.0]
-    return gap, depth
+    gap = with_pocket(new, depth, rng.uniform(0.62, 0.8), 0.17)
+    other = rng.uniform(0.6, 0.9) if kind == BOTH else 0.15
+    if kind == BOTH or rng.random() < 0.6:
+        gap = with_pocket(mirrored(gap), other * depth, 0.7, 0.17 if kind == BOTH else 0.1)
+        gap = mirrored(gap)
+    return with_worn_tips(gap, rng.uniform(0.01, 0.04) * pitch) if kind == TIPS else gap, depth
+
+
+def mirrored(gap: Points) -> Points:
+    """Return a gap as it is seen from the other side of the wheel."""
+    return gap[::-1] * [-1.0, 1.0]
+
+
+def evolute_wheel(teeth: int) -> tuple[wearsim.Case, Points]:
+    """Return a case with an asymmetric form, and its gap [mm]."""
+    settings = {"sprocket.profile": "evolute", "sprocket.teeth": teeth}
+    case = wearsim.load_case(ROOT / "cases" / f"{CASE}.toml").with_(settings)
+    return case, np.column_stack([case.drive.outline.x, case.drive.outline.y])
 
 
 def worn_by_wearsim() -> Callable[[np.random.Generator], tuple[Points, float]]:
@@ -88,36 +124,44 @@ def worn_by_wearsim() -> Callable[[np.random.Generator], tuple[Points, float]]:
 def trial(seed: int, of_wearsim: Callable[[np.random.Generator], tuple[Points, float]]) -> Trial:
     """Photograph a wheel and measure it."""
     rng = np.random.default_rng(seed)
-    chain, pitch, roller, form = FORMS[seed % len(FORMS)]
-    teeth, by_wearsim = int(rng.integers(9, 61)), seed % 5 == 4
-    if by_wearsim:
-        (chain, *_, form), teeth = FORMS[0], 19
+    chain, pitch, roller, form = FORMS[(seed + seed // len(KINDS_OF)) % len(FORMS)]
+    teeth, kind = int(rng.integers(9, 61)), KINDS_OF[seed % len(KINDS_OF)]
+    form_of: dict[str, Any] = {"chain": chain, "profile": form}
+    if kind == BY_WEARSIM:
+        teeth, form_of = 19, {"chain": FORMS[0][0], "profile": FORMS[0][3]}
         gap, depth = of_wearsim(rng)
+    elif kind == EVOLUTE:
+        pitch, teeth = FORMS[0][1], int(rng.integers(15, 31))
+        case, new = evolute_wheel(teeth)
+        form_of = {"case": case}
+        gap, depth = pocketed(rng, new, pitch, kind)
     else:
-        gap, depth = pocketed(rng, pitch, roller, teeth, form)
+        gap, depth = pocketed(rng, new_gap(pitch, roller, teeth, form), pitch, kind)
     left = bool(rng.integers(2))
-    gap = gap if left else gap[::-1] * [-1.0, 1.0]
+    gap = gap if left else mirrored(gap)
     width = max(LEAST_WIDTH, PIXELS_A_TOOTH * teeth)
     camera = random_camera(rng, (width, 3 * width // 4))
-    start = Trial(camera, depth, left != camera.mirror, by_wearsim)
+    if kind == CUT:
+        camera = replace(camera, centre=(0.5, rng.uniform(0.0, 0.48 * camera.wheel)))
+    links = int(rng.integers(2, max(3, teeth // 2)))
+    on_it = chain_on(pitch, roller, teeth, links) if kind == CHAIN else ()
+    start = Trial(camera, depth, left != camera.mirror, kind)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "wheel.png"
-        picture(wheel([gap] * teeth), camera).save(path)
-        return measured(start, path, chain, teeth, form)
+        picture(wheel([gap] * teeth), camera, on_it).save(path)
+        return measured(start, path, form_of, teeth)
 
 
-def measured(start: Trial, path: Path, chain: str, teeth: int, form: str) -> Trial:
+def measured(start: Trial, path: Path, form_of: dict[str, Any], teeth: int) -> Trial:
     """Return what is said of a picture."""
     begin = time.process_time()
-    known = {"camera": start.camera, "depth": start.depth, "left": start.left}
-    known["worn_by_wearsim"] = start.worn_by_wearsim
     try:
-        found = wearsim.scan(path, chain=chain, profile=form)
+        found = wearsim.scan(path, **form_of)
     except wearsim.CaseError as error:
-        return Trial(**known, refusal=str(error).partition(": ")[2].partition(",")[0])
+        return replace(start, refusal=str(error).partition(": ")[2].partition(",")[0])
     depths, content = found.found.depths, found.summary()
-    return Trial(
-        **known,
+    return replace(
+        start,
         counted=content["teeth"] == teeth,
         found=found.depth,
         error=found.depth_error,
@@ -132,7 +176,7 @@ def row(name: str, trials: Sequence[Trial]) -> str:
     """Return the row of a group of pictures."""
     held = [one for one in trials if not one.refusal and one.counted]
     if not held:
-        return f"| {name} | {len(trials)} | 0 | {len(trials)} | | | | | | |"
+        return f"| {name} | {len(trials)} | 0 | {len(trials)} | | | | | | | | |"
     off, over = np.array([one.off for one in held]), np.array([one.over for one in held])
     silent = sum(not one.warned and (abs(one.over) > 3.0 or not one.side) for one in held)
     cells = (
@@ -141,10 +185,12 @@ def row(name: str, trials: Sequence[Trial]) -> str:
         len(held),
         sum(bool(one.refusal) for one in trials),
         f"{np.sqrt(np.mean(off**2)):.3f}",
+        f"{np.sqrt(np.mean([(one.found - one.depth) ** 2 for one in held])):.4f}",
         f"{off.mean():+.3f}",
         f"{np.abs(off).max():.2f}",
         f"{100 * np.mean(np.abs(over) < 1.0):.0f} %",
         f"{100 * np.mean(np.abs(over) < 1.96):.0f} %",
+        sum(one.warned for one in held),
         silent,
     )
     return "| " + " | ".join(map(str, cells)) + " |"
@@ -155,11 +201,16 @@ def page(trials: Sequence[Trial]) -> str:
     wrong = sum(not one.counted for one in trials)
     groups = {
         "all": trials,
-        "worn by wearsim (`08b-19t-wrap`)": [one for one in trials if one.worn_by_wearsim],
-        "a pocket in a standard form": [one for one in trials if not one.worn_by_wearsim],
+        "all without a warning": [one for one in trials if not one.warned],
+        **{kind: [one for one in trials if one.kind == kind] for kind in dict.fromkeys(KINDS_OF)},
         "not worn": [one for one in trials if one.depth == 0.0],
         "coded as sRGB": [one for one in trials if not one.camera.gamma],
-        "another tone curve": [one for one in trials if one.camera.gamma],
+        "tone curve of an exponent below 2.2": [
+            one for one in trials if 0.0 < (one.camera.gamma or 0.0) < 2.2
+        ],
+        "tone curve of an exponent above 2.2": [one for one in trials if (one.camera.gamma or 0.0) >= 2.2],
+        "light uneven by less than 20 %": [one for one in trials if one.camera.uneven < 0.2],
+        "light uneven by 20 to 40 %": [one for one in trials if one.camera.uneven >= 0.2],
         "blur below 1.3 px": [one for one in trials if one.camera.blur < 1.3],
         "blur from 1.3 to 2 px": [one for one in trials if one.camera.blur >= 1.3],
         "tilted by less than 3 degrees": [one for one in trials if abs(one.camera.tilt) < math.radians(3.0)],
@@ -172,16 +223,18 @@ def page(trials: Sequence[Trial]) -> str:
         "# wearsim scan on rendered photographs",
         "",
         f"{len(trials)} random pictures, by `python research/scan_photographs.py {len(trials)}`: ISO 606,",
-        "ANSI B29.1 and GOST 591, 9 to 60 teeth, 700 to 2400 pixels wide, with tilt, perspective, a lens,",
+        "ANSI B29.1 and GOST 591, 9 to 60 teeth, 700 to 1800 pixels wide, with tilt, perspective, a lens,",
         "blur, noise, JPEG, uneven light, dirt, bright rims, mirrored. The renderer, `tests/photographs.py`,",
-        "shares no code with the scan. Errors are those of the depth, in pixels of the picture; a silent one",
-        "is off by more than three standard errors, or on the wrong flank, without a warning.",
+        "shares no code with the scan. Errors are those of the depth, in pixels of the picture and in mm (of",
+        "pictures with 20 to 80 pixels to a pitch); their mean is the bias. A silent one is off by more than",
+        "three standard errors, or on the wrong flank, without a warning. Of both worn flanks the deeper",
+        "counts.",
         "",
         f"Teeth counted wrong: {wrong}. Median time: {seconds:.1f} s on one core.",
         "",
-        "| pictures | number | measured | refused | rms, px | mean, px | largest, px | within 1 se (68 %) "
-        "| within 1.96 se (95 %) | silent |",
-        "|---|---|---|---|---|---|---|---|---|---|",
+        "| pictures | number | measured | refused | rms, px | rms, mm | mean, px | largest, px "
+        "| within 1 se (68 %) | within 1.96 se (95 %) | warned | silent |",
+        "|---|---|---|---|---|---|---|---|---|---|---|---|",
         *(row(name, group) for name, group in groups.items()),
         "",
         "Refused:",

@@ -8,6 +8,7 @@ import io
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 from matplotlib.backends.backend_agg import RendererAgg
@@ -88,6 +89,30 @@ def wheel(gaps: Sequence[Points]) -> Points:
     return np.concatenate(outline)
 
 
+def with_worn_tips(gap: Points, loss: float) -> Points:
+    """Return a gap without the part that is nearer to its tips than a loss of their radius [mm]."""
+    radius = np.hypot(*gap.T)
+    return gap[radius < radius.max() - loss]
+
+
+def chain_on(pitch: float, roller: float, teeth: int, links: int) -> list[Points]:
+    """Return the outlines of rollers and plates of a chain in the first gaps of a wheel [mm]."""
+    radius = 0.5 * pitch / math.sin(math.pi / teeth)
+    angle = np.linspace(0.0, math.tau, 90, endpoint=False)
+    circle = np.column_stack([np.cos(angle), np.sin(angle)])
+    pins = math.tau * -np.arange(links + 1) / teeth
+    pins = radius * np.column_stack([-np.sin(pins), np.cos(pins)])
+    shapes = [pin + 0.5 * roller * circle for pin in pins]
+    for start, end in pairwise(pins):
+        along = (end - start) / pitch
+        across = np.array([-along[1], along[0]])
+        half = 0.45 * pitch
+        waist = np.array([start - 0.8 * half * across, end - 0.8 * half * across])
+        waist = np.concatenate([waist, [end + 0.8 * half * across, start + 0.8 * half * across]])
+        shapes += [start + half * circle, end + half * circle, waist]
+    return shapes
+
+
 def photographed(points: Points, radius: float, camera: Camera) -> tuple[Points, float]:
     """Return points of the wheel's plane [mm] in the picture, and the pixels of a millimetre."""
     turned = points @ np.array(
@@ -110,8 +135,8 @@ def photographed(points: Points, radius: float, camera: Camera) -> tuple[Points,
     return optical + 0.5 * least * off * (1.0 + camera.distortion * (off**2).sum(axis=1))[:, None], scale
 
 
-def picture(outline: Points, camera: Camera) -> Image.Image:
-    """Return the picture of a wheel."""
+def picture(outline: Points, camera: Camera, chain: Sequence[Points] = ()) -> Image.Image:
+    """Return the picture of a wheel, with the parts of a chain on it."""
     rng = np.random.default_rng(camera.seed)
     width, height = camera.size
     radius = float(np.hypot(*outline.T).max())
@@ -121,6 +146,8 @@ def picture(outline: Points, camera: Camera) -> Image.Image:
         ring = np.column_stack([x + part * np.cos(angle), y + part * np.sin(angle)]) * radius
         shapes.append(photographed(ring, radius, camera)[0])
     cover = _covered(shapes, width, height)
+    for part in chain:
+        cover = np.maximum(cover, _covered([photographed(part, radius, camera)[0]], width, height))
     across, down = np.meshgrid(
         np.arange(width, dtype=np.float32) / width, np.arange(height, dtype=np.float32) / height
     )

@@ -1,8 +1,12 @@
 """``wearsim scan``: what it prints, its files, and which pictures it refuses."""
 
 import csv
+import io
 import json
+import os
 import struct
+import subprocess
+import sys
 import zlib
 
 import numpy as np
@@ -10,7 +14,7 @@ import pytest
 from PIL import Image
 
 import wearsim
-from tests.photographs import Camera, new_gap, picture, wheel, with_pocket
+from tests.photographs import Camera, chain_on, new_gap, picture, wheel, with_pocket
 
 
 @pytest.fixture(scope="module")
@@ -28,6 +32,8 @@ def test_answer_and_files(cli, photo, tmp_path):
     text = " ".join(done.out.split())
     assert text.startswith("wheel.png: iso606 for 08B-1, 19 teeth Teeth 19 counted")
     assert "Worn flank the one that faces clockwise" in text
+    assert "a wrong chain gives wrong millimetres" in text
+    assert "with pins of the roller's diameter, 8.51 mm: as the new form, within the error" in text
     names = ("teeth.csv", "gap.csv", "points.csv", "readings.csv", "scan.txt", "overlay.png", "overlay.svg")
     assert {path.name for path in out.iterdir()} >= set(names)
     with (out / "readings.csv").open() as file:
@@ -53,6 +59,8 @@ def test_json(cli, photo):
     assert (found["schema_version"], found["teeth"], found["worn_flank"]) == (1, 19, "clockwise")
     assert abs(found["depth_mm"] - 0.3) < 3.0 * found["depth_se_mm"]
     assert len(found["teeth_depth_mm"]) == 19
+    assert found["scale_by"] == "form of the teeth"
+    assert "the chain is the right one" in found["assumptions"][2]
     answer = wearsim.scan(photo, chain="08B")
     assert answer.summary() == found
     assert answer.teeth.shape == (19, 5)
@@ -116,7 +124,39 @@ def disc(across, down, radius, size=600):
 
 OUTLINE = wheel([new_gap(12.7, 8.51, 19)] * 19)
 
+
+def gear(teeth, module=4.0):
+    """Return the outline of a spur gear, pressure angle 20 degrees [mm]."""
+    pitch_radius = 0.5 * module * teeth
+    base = pitch_radius * np.cos(np.radians(20.0))
+    roll = np.linspace(0.0, np.sqrt(((pitch_radius + module) / base) ** 2 - 1.0), 60)
+    radius = base * np.hypot(1.0, roll)
+    half = 0.5 * np.pi / teeth + np.tan(np.radians(20.0)) - np.radians(20.0)
+    angle = half - (roll - np.arctan(roll))
+    radius = np.concatenate([[pitch_radius - 1.25 * module], radius])
+    angle = np.concatenate([[half], angle])
+    tooth = np.column_stack([np.r_[radius, radius[::-1]], np.r_[-angle, angle[::-1]]])
+    turns = np.repeat(2.0 * np.pi * np.arange(teeth) / teeth, len(tooth))
+    radius, angle = np.tile(tooth, (teeth, 1)).T
+    return np.column_stack([radius * np.cos(angle + turns), radius * np.sin(angle + turns)])
+
+
+def landscape():
+    """Return dark hills below a bright sky."""
+    y, x = np.mgrid[:600, :800]
+    return np.where(y > 320 + 60 * np.sin(x / 90.0) + 25 * np.sin(x / 23.0), 0.2, 0.85)
+
+
 REFUSED = {
+    "a gear": (lambda: picture(gear(30), Camera(size=(800, 800))), "neither flank of its teeth has"),
+    "another gear": (lambda: picture(gear(19), Camera(size=(800, 800))), "neither flank of its teeth has"),
+    "a chain on it": (
+        lambda: picture(OUTLINE, Camera(size=(800, 800)), chain_on(12.7, 8.51, 19, 6)),
+        "chain",
+    ),
+    "noise": (lambda: grey(np.random.default_rng(1).random((500, 500))), "at least 2 % of the picture"),
+    "a landscape": (lambda: grey(landscape()), "all teeth must be in the picture"),
+    "floating point": (lambda: Image.fromarray(disc(300, 300, 200).astype(np.float32)), "8 or 16 bits"),
     "no two shades": (lambda: grey(np.full((400, 400), 0.5)), "no two shades"),
     "a disc": (lambda: grey(disc(300, 300, 200)), "no teeth that repeat"),
     "two wheels": (
@@ -138,8 +178,9 @@ REFUSED = {
 @pytest.mark.parametrize("name", REFUSED)
 def test_refused_pictures(cli, tmp_path, name):
     drawn, message = REFUSED[name]
-    drawn().save(tmp_path / "bad.png")
-    done = cli("scan", tmp_path / "bad.png", "--chain", "08B", "--json")
+    path = tmp_path / ("bad.tif" if name == "floating point" else "bad.png")
+    drawn().save(path)
+    done = cli("scan", path, "--chain", "08B", "--json")
     assert done.code == 2
     assert message in " ".join(done.err.split()), done.err
     assert json.loads(done.out)["error"]["kind"] == "CaseError"
@@ -170,7 +211,72 @@ def test_a_bomb_is_refused_by_its_header(cli, tmp_path):
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", b"") + chunk(b"IEND", b""))
     done = cli("scan", path, "--chain", "08B")
     assert done.code == 2
-    assert "at most 100 million pixels" in done.err
+    assert "at most 80 million pixels" in done.err
+
+
+def huge(picture, kind):
+    """Return a picture's file with 20 000 pixels in each direction in its header."""
+    held = io.BytesIO()
+    picture.save(held, kind)
+    data = bytearray(held.getvalue())
+    if kind == "JPEG":
+        at = data.index(b"\xff\xc0") + 5
+        data[at : at + 4] = struct.pack(">HH", 20_000, 20_000)
+        return bytes(data)
+    (first,) = struct.unpack_from("<I", data, 4)
+    for entry in range(first + 2, first + 2 + 12 * struct.unpack_from("<H", data, first)[0], 12):
+        if struct.unpack_from("<H", data, entry)[0] in (256, 257):
+            struct.pack_into("<HII", data, entry + 2, 4, 1, 20_000)
+    return bytes(data)
+
+
+@pytest.mark.parametrize("kind", ["JPEG", "TIFF"])
+def test_other_bombs(cli, tmp_path, kind):
+    path = tmp_path / f"bomb.{kind}"
+    path.write_bytes(huge(Image.new("L", (300, 300), 200), kind))
+    assert "at most 80 million pixels" in cli("scan", path, "--chain", "08B").err
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="children tell no memory there")
+def test_memory_of_the_largest_picture(photo, tmp_path):
+    """The largest one that is decoded, with transparency, stays below 1.5 GB."""
+    path = tmp_path / "large.png"
+    large = Image.open(photo).resize((8940, 8940)).convert("RGBA")
+    large.putalpha(250)
+    large.save(path, compress_level=1)
+    del large
+    child = subprocess.Popen([sys.executable, "-m", "wearsim", "scan", str(path), "--chain", "08B"])
+    _, status, used = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    assert child.returncode == 0
+    assert used.ru_maxrss * (1 if sys.platform == "darwin" else 1024) < 1.5e9
+
+
+@pytest.mark.parametrize(("kind", "name"), [("PNG", "wheel.png"), ("TIFF", "wheel.tif")])
+def test_several_pages(cli, photo, tmp_path, kind, name):
+    upright = Image.open(photo)
+    upright.save(tmp_path / name, kind, save_all=True, append_images=[upright.rotate(20, fillcolor=220)])
+    done = cli("scan", tmp_path / name, "--chain", "08B")
+    assert done.code == 2
+    assert "must be one picture, but holds 2" in done.err
+
+
+def test_an_empty_file(cli, tmp_path):
+    (tmp_path / "empty.jpg").touch()
+    assert "is none of them" in cli("scan", tmp_path / "empty.jpg", "--chain", "08B").err
+
+
+@pytest.mark.parametrize("orientation", range(1, 9))
+def test_every_orientation(cli, photo, tmp_path, orientation):
+    """Mirrored ones show the other flank."""
+    exif = Image.Exif()
+    exif[0x0112] = orientation
+    path = tmp_path / "turned.jpg"
+    Image.open(photo).convert("RGB").save(path, exif=exif, quality=92)
+    found = json.loads(cli("scan", path, "--chain", "08B", "--json").out)
+    assert found["worn_flank"] == ("clockwise" if orientation in (1, 3, 6, 8) else "counterclockwise")
+    assert found["depth_mm"] == pytest.approx(0.3, abs=0.05)
 
 
 def test_a_picture_is_turned_as_its_camera_says(photo, tmp_path):
@@ -186,15 +292,20 @@ def test_a_picture_is_turned_as_its_camera_says(photo, tmp_path):
     assert found == {6: "clockwise", 5: "clockwise"}
 
 
-@pytest.mark.parametrize("mode", ["RGB", "RGBA", "P", "I;16", "TIFF"])
+@pytest.mark.parametrize("mode", ["RGB", "RGBA", "P", "I;16", "TIFF", "CMYK", "clear"])
 def test_kinds_of_pictures(photo, tmp_path, mode):
     upright = Image.open(photo)
     path = tmp_path / "wheel.png"
     if mode == "I;16":
         Image.fromarray(257 * np.asarray(upright).astype(np.uint16)).save(path)
-    elif mode == "TIFF":
+    elif mode in ("TIFF", "CMYK"):
         path = tmp_path / "wheel.tif"
-        upright.save(path)
+        upright.convert(mode if mode == "CMYK" else "L").save(path)
+    elif mode == "clear":
+        # Black, but transparent: it is ground.
+        clear = upright.convert("RGBA")
+        clear.paste((0, 0, 0, 0), (0, 0, 60, 60))
+        clear.save(path)
     else:
         upright.convert(mode).save(path)
     assert wearsim.scan(path, chain="08B").depth == pytest.approx(0.3, abs=0.05)

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import wearsim
-from tests.photographs import Camera, new_gap, picture, wheel, with_pocket
+from tests.photographs import Camera, new_gap, picture, wheel, with_pocket, with_worn_tips
+from wearsim.geometry.worn_tooth import measurement_over_pins
+from wearsim.scanning.over_pins import seated_radius
 
 PITCH, ROLLER = 12.7, 8.51
 
@@ -84,14 +86,77 @@ def test_a_wheel_that_wearsim_wore(scanned):
     case = wearsim.load_case("08b-19t-wrap").with_(
         {"sprocket.nodes": 201, "mechanism.phases": 1, "run.life_tolerance": 0.1}
     )
-    last = wearsim.simulate(case).flank_columns
+    result = wearsim.simulate(case)
+    last = result.flank_columns
     rows = last["cycles"] == last["cycles"].max()
     gap = np.column_stack([last["x_mm"][rows], last["y_mm"][rows]])
     found = scanned(wheel([gap] * 19), Camera(size=(900, 900)), chain=None, case=case)
     assert abs(found.depth - last["depth_mm"][rows].max()) < 3.0 * found.depth_error
+    pins, size = found.summary(), result.history_columns["over_pins_mm"][-1]
+    assert measurement_over_pins(seated_radius(gap, 0.5 * ROLLER, 19), ROLLER, 19) == pytest.approx(
+        size, abs=5e-4
+    )
+    assert abs(pins["size_over_pins_mm"] - size) < 3.0 * pins["over_pins_se_mm"]
     assert found.gap["depth_mm"][found.gap["new_x_mm"] > 1.0].max() == pytest.approx(
         last["depth_mm"][rows][last["x_mm"][rows] > 1.0].max(), abs=0.02
     )
+
+
+@pytest.mark.parametrize("teeth", [19, 20])
+def test_over_pins_of_a_new_wheel(scanned, teeth):
+    """The centre of the seat's arc of 0.505 roller diameters is on the pitch circle: pins lie at its bottom.
+
+    Of an odd number of teeth no two gaps are opposite: the distance is shorter by cos(90/z).
+    """
+    radius = 0.5 * PITCH / math.sin(math.pi / teeth) - 0.005 * ROLLER
+    size = 2.0 * radius * (math.cos(0.5 * math.pi / teeth) if teeth % 2 else 1.0) + ROLLER
+    gap = new_gap(PITCH, ROLLER, teeth)
+    assert measurement_over_pins(seated_radius(gap, 0.5 * ROLLER, teeth), ROLLER, teeth) == pytest.approx(
+        size, abs=1e-5
+    )
+    content = scanned(worn_wheel(teeth), Camera()).summary()
+    assert content["pin_diameter_mm"] == ROLLER
+    assert abs(content["size_over_pins_mm"] - size) < 3.0 * content["over_pins_se_mm"]
+    assert content["over_pins_mm"] == pytest.approx(size - content["size_over_pins_mm"], abs=1e-5)
+
+
+@pytest.mark.parametrize(("depth", "at", "width"), [(0.2, 0.5, 0.2), (0.2, 0.55, 0.15), (0.1, 0.55, 0.2)])
+def test_over_pins_of_a_worn_seat(scanned, depth, at, width):
+    """Pins sink into pockets at the bottom, as far as their sides let them."""
+    new = new_gap(PITCH, ROLLER, 20)
+    gap = with_pocket(new, depth, at, width)
+    decrease = 2.0 * (seated_radius(new, 0.5 * ROLLER, 20) - seated_radius(gap, 0.5 * ROLLER, 20))
+    content = scanned(wheel([gap] * 20), Camera(size=(900, 900))).summary()
+    assert abs(content["over_pins_mm"] - decrease) < 2.0 * content["over_pins_se_mm"] < 0.05
+
+
+@pytest.mark.parametrize("mirror", [False, True])
+def test_an_asymmetric_form(scanned, mirror):
+    case = wearsim.load_case("08b-19t-wrap").with_({"sprocket.profile": "evolute"})
+    new = np.column_stack([case.drive.outline.x, case.drive.outline.y])
+    camera = Camera(size=(900, 900), mirror=mirror)
+    found = scanned(wheel([with_pocket(new, 0.3)] * 19), camera, chain=None, case=case)
+    assert found.summary()["worn_flank"] == ("counterclockwise" if mirror else "clockwise")
+    assert abs(found.depth - 0.3) < 3.0 * found.depth_error
+
+
+def test_worn_tips(scanned):
+    gap = with_worn_tips(with_pocket(new_gap(PITCH, ROLLER, 19), 0.3), 0.3)
+    found = scanned(wheel([gap] * 19), Camera())
+    assert abs(found.depth - 0.3) < 3.0 * found.depth_error
+
+
+def test_both_flanks_worn(scanned):
+    gap = with_pocket(with_pocket(new_gap(PITCH, ROLLER, 19), 0.3)[::-1] * [-1.0, 1.0], 0.25)
+    found = scanned(wheel([gap] * 19), Camera(size=(900, 900)))
+    assert "both flanks are worn" in found.summary()["warnings"][0]
+    assert abs(found.depth - 0.3) < 3.0 * found.depth_error
+
+
+def test_a_bright_rim_is_told(scanned):
+    found = scanned(worn_wheel(), Camera(shine=0.15))
+    assert "no plain step" in found.summary()["warnings"][0]
+    assert abs(found.depth - 0.3) < 3.0 * found.depth_error
 
 
 def test_scales_from_elsewhere(scanned):

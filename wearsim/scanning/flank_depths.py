@@ -1,25 +1,25 @@
 """Depth of wear along the gaps of a placed wheel, tooth by tooth and in the mean, with its standard error."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 from scipy.signal import savgol_filter
 
 from wearsim.geometry.profile_points import Vector
-from wearsim.scanning.placement import Placement
+from wearsim.scanning.placement import Placement, smoothing_window
 
 Facing = Literal["clockwise", "counterclockwise"]
 """Which way a flank faces as one sees the wheel."""
 
-_WINDOW = 0.06
-"""Part of a gap's length over which depths are smoothed."""
-
 _CORNER = 0.06
 """Part of the half length of a gap at each tip at which no depth is told."""
 
-_EDGE_MODEL = 0.03
+_BOTH = 0.5
+"""Depth of the other flank over that of the worn one, above which both are worn."""
+
+_EDGE_MODEL = 0.02
 """Standard deviation of what light, blur and pixels do to all edges of a kind alike [px]."""
 
 
@@ -30,8 +30,16 @@ class FlankDepths:
     place: Placement
     teeth: Vector  # smoothed, of every gap, nan where it has no edge, shape (teeth, stations)
     mean: Vector  # of all gaps, shape (stations,)
-    error: Vector  # standard error of the mean, shape (stations,)
+    deviations: (
+        Vector  # what one standard deviation of each cause moves the mean by, shape (causes, stations)
+    )
     deepest: int  # station of the loaded side where the mean is deepest
+    both_worn: bool = False  # whether the other flank is worn too, so that the wheel may be placed turned
+
+    @property
+    def error(self) -> Vector:
+        """Standard error of the mean [mm], shape (stations,)."""
+        return np.asarray(np.hypot.reduce(self.deviations, axis=0))
 
     @property
     def facing(self) -> Facing:
@@ -76,9 +84,13 @@ class FlankDepths:
     @property
     def worn_gap(self) -> Vector:
         """Points of the mean gap [mm], from its right tip to its left one, the corners left out."""
-        inner = np.abs(self.place.stations.from_middle) < 1.0 - _CORNER
+        return self.gap_of(self.mean)
+
+    def gap_of(self, depth: Vector) -> Vector:
+        """Return points of a gap that is worn so deep [mm], the corners left out."""
         stations = self.place.stations
-        return np.asarray((stations.points - self.mean[:, None] * stations.normals)[inner])
+        inner = np.abs(stations.from_middle) < 1.0 - _CORNER
+        return np.asarray((stations.points - depth[:, None] * stations.normals)[inner])
 
     def _side(self, left: bool) -> Vector:
         side = self.place.stations.from_middle * (1.0 if left else -1.0)
@@ -87,20 +99,24 @@ class FlankDepths:
 
 def flank_depths(place: Placement) -> FlankDepths:
     """Return the depth along the gaps of a placed wheel."""
-    window = max(5, 2 * int(0.5 * _WINDOW * place.stations.way.size) + 1)
+    window = smoothing_window(place.stations.way.size)
     teeth = np.stack([_smoothed(row, window) for row in place.depth])
     mean = _mean(teeth)
-    rows = place.depth_by_unknowns
-    placed = np.einsum("ki,ij,kj->k", rows, place.covariance, rows)
+    placed = (place.depth_by_unknowns @ np.linalg.cholesky(place.covariance)).T
     stretch = place.edges.gaps.stretch.mean(axis=0)
     # A local quadratic over n points has 9/4 of the variance of their mean.
     alone = 2.25 * place.noise**2 * max(1.0, place.correlation) / (window * place.wheel.teeth)
     unworn = mean[place.unworn]
     misfit = float(np.mean(unworn**2)) if unworn.size else 0.0
-    error = np.sqrt(placed + (alone + _EDGE_MODEL**2) / stretch**2 + misfit)
+    own = np.sqrt((alone + _EDGE_MODEL**2) / stretch**2 + misfit)
     side = place.stations.from_middle * (1.0 if place.left_worn else -1.0)
     loaded = np.flatnonzero((side > 0.1) & (side < 1.0 - _CORNER))
-    return FlankDepths(place, teeth, mean, error, int(loaded[mean[loaded].argmax()]))
+    depths = FlankDepths(place, teeth, mean, np.vstack([placed, own]), int(loaded[mean[loaded].argmax()]))
+    if depths.other_depth <= max(_BOTH * depths.depth, 3.0 * depths.depth_error):
+        return depths
+    # By anything up to half of that depth, either way: uniform.
+    turned = 0.5 * depths.other_depth / math.sqrt(3.0) * np.sign(side)
+    return replace(depths, deviations=np.vstack([placed, own, turned]), both_worn=True)
 
 
 def _smoothed(row: Vector, window: int) -> Vector:

@@ -8,7 +8,7 @@ from wearsim.scanning.flank_depths import FlankDepths, flank_depths
 from wearsim.scanning.known_scales import LookUp
 from wearsim.scanning.new_wheel import NewWheel
 from wearsim.scanning.photograph import Photograph, bad_photograph
-from wearsim.scanning.placement import EDGE_BIAS, SEARCH, place_wheel
+from wearsim.scanning.placement import SEARCH, edge_bias, place_wheel
 from wearsim.scanning.silhouette import Silhouette
 from wearsim.study.remaining.model import RemainingLife
 
@@ -18,8 +18,14 @@ _TILTED = 0.97
 _OFF_FORM = 0.15
 """How far the mean of all gaps may be off the new form where it does not wear [px]."""
 
-_BOTH = 0.5
-"""Depth of the other flank over that of the worn one, above which both are worn."""
+_UNCLEAR = 0.012
+"""How far light may be off a blurred step, over the contrast, before edges are doubtful."""
+
+_OTHER = 1.5
+"""Depth of the flank that is to be the less worn over that of the other, from which the form is wrong."""
+
+_PLAIN = 0.02
+"""Depth over the pitch that no error explains."""
 
 _SCALES_DIFFER = (0.01, 0.05)
 """Relative difference of two scales that is doubtful, and that is wrong."""
@@ -59,7 +65,9 @@ class ScannedWheel:
         return (
             f"the new form is {self.wheel.words}",
             "roots, tips and the less worn flank are as new where they fit the form; the tip diameter is any",
-            "the scale is that of the form" if known is None else f"the scale is that of {known.words}",
+            "the scale is that of the form: the chain is the right one"
+            if known is None
+            else f"the scale is that of {known.words}",
             "the teeth are seen along their axis, and their edges are the outline of the wheel",
             "the picture is coded as sRGB, as cameras and scanners do",
         )
@@ -89,6 +97,14 @@ def _check_fit(photograph: Photograph, depths: FlankDepths) -> None:
             f"the scale of {place.known.words} and that of the teeth must agree, but differ by "
             f"{100.0 * (place.known.scale / place.form_scale - 1.0):+.1f} %: check both, and the profile",
         )
+    doubtful = min(3.0 * depths.depth_error, _PLAIN * place.wheel.pitch)
+    if depths.other_depth > max(_OTHER * depths.depth, 0.0) + doubtful:
+        raise bad_photograph(
+            photograph.name,
+            "the wheel must have the new form that is said but for its wear, but neither flank of its teeth "
+            f"has ({depths.other_depth:.2g} mm are missing on the one that is to be the less worn): check "
+            "chain and profile, and whether it is a sprocket",
+        )
     share = depths.seen_share
     if not share > 0.5:
         raise bad_photograph(
@@ -106,12 +122,17 @@ def _warnings(seen: Silhouette, depths: FlankDepths) -> Iterator[str]:
             f"the unworn part of the wheel deviates from the new form by {depths.misfit:.2g} mm "
             f"({misfit:.2f} pixels): check chain and profile; the depth may be wrong by several times as much"
         )
-    if abs(place.bias) > 3.0 * EDGE_BIAS * place.blur:
+    if abs(place.bias) > 3.0 * edge_bias(place.blur, place.edge_misfit):
         yield (
             f"edges lie {place.bias:+.2f} pixels off the new form all around: check chain and profile, or "
             "light the wheel from all sides"
         )
-    if depths.other_depth > max(_BOTH * depths.depth, 3.0 * depths.depth_error):
+    if place.edge_misfit > _UNCLEAR:
+        yield (
+            "edges are no plain step from steel to ground (bright rims, shadows, or sharpening by the "
+            "camera), so that the depth is less certain: light the wheel from behind, or from all sides"
+        )
+    if depths.both_worn:
         yield (
             f"both flanks are worn ({depths.other_depth:.2g} mm on the other one), so that little is left to "
             "place the wheel by, or the profile is another: the sum of both depths is more certain than each"

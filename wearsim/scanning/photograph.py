@@ -12,8 +12,8 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 
 from wearsim.errors import CaseError, Fault
 
-MOST_PIXELS = 100_000_000
-"""Pixels of the largest picture that is decoded: it takes about 1 GB meanwhile."""
+MOST_PIXELS = 80_000_000
+"""Pixels of the largest picture that is decoded: it takes about 1 GB meanwhile, and 8 s."""
 
 FEWEST_PIXELS = 200
 """Pixels of the smaller side below which no tooth is measured."""
@@ -46,6 +46,7 @@ def read_photograph(path: Path) -> Photograph:
     """Return the picture in a file; raise CaseError for what is none, is damaged, too large or too small."""
     with _faults(path), Image.open(path, formats=_FORMATS) as picture:
         _check_size(picture, path)
+        _check_kind(picture, path)
         picture.load()
         grey = _grey(ImageOps.exif_transpose(picture))
     return Photograph(path.name, _linear(grey))
@@ -64,6 +65,8 @@ def _faults(path: Path) -> Iterator[None]:
             # What is too large is refused by its header, and odd tags of a camera do no harm.
             warnings.simplefilter("ignore")
             yield
+    except CaseError:
+        raise
     except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
         text = f"must be a picture, but cannot be opened ({error.strerror}): check the path"
         raise bad_photograph(str(path), text) from None
@@ -89,6 +92,17 @@ def _check_size(picture: Image.Image, path: Path) -> None:
         raise bad_photograph(str(path), text)
 
 
+def _check_kind(picture: Image.Image, path: Path) -> None:
+    # A telephone's JPEG may hold more pictures: the first one is the photograph.
+    pages = 1 if picture.format in ("JPEG", "MPO") else getattr(picture, "n_frames", 1)
+    if pages > 1:
+        text = f"must be one picture, but holds {pages}: save that of the wheel alone"
+        raise bad_photograph(str(path), text)
+    if picture.mode == "F":
+        text = "must have 8 or 16 bits for a shade, but has floating-point numbers: save it as PNG"
+        raise bad_photograph(str(path), text)
+
+
 def _too_large(found: str) -> str:
     return (
         f"must have at most {MOST_PIXELS // 1_000_000} million pixels, but {found}: crop it to the wheel, or "
@@ -102,7 +116,9 @@ def _grey(picture: Image.Image) -> Codes:
         return np.array(np.clip(np.asarray(picture), 0, 65535), dtype=np.uint16)
     if picture.has_transparency_data:
         picture = picture.convert("RGBA")
-        picture = Image.alpha_composite(Image.new("RGBA", picture.size, "white"), picture)
+        white = Image.new("L", picture.size, "white")
+        white.paste(picture.convert("L"), mask=picture.getchannel("A"))
+        picture = white
     return np.array(picture.convert("L"), dtype=np.uint8)
 
 

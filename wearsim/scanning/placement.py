@@ -2,18 +2,20 @@
 
 import math
 from collections.abc import Callable
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import savgol_filter
 
 from wearsim.geometry.profile_points import Vector
 from wearsim.scanning.new_wheel import NewWheel, Stations, around
 from wearsim.scanning.photograph import Photograph, bad_photograph
 from wearsim.scanning.projection import NUMBERS, Projection, SeenStations, seen_stations
 from wearsim.scanning.silhouette import Silhouette
-from wearsim.scanning.subpixel_edges import EdgeImage
+from wearsim.scanning.subpixel_edges import Blur, EdgeImage
 
 _TIP, _BIAS = NUMBERS, NUMBERS + 1
 """Places of the tip circle and of the bias of all edges among the unknowns."""
@@ -23,6 +25,9 @@ SEARCH = 0.15
 
 _SEARCH_AGAIN = 0.05
 """The same about the mean edge of all gaps, once that is known."""
+
+_WINDOW = 0.06
+"""Part of a gap's length over which depths are smoothed."""
 
 _MOST_STATIONS = 320
 _CORNER = 0.06
@@ -34,14 +39,20 @@ _TIP_TOLERANCE = 0.03
 _DISTORTION = 2e-3
 """Standard deviation of the distortion of a telephone's lens at half the smaller side of its picture."""
 
-EDGE_BIAS = 0.08
+_EDGE_BIAS = 0.03
 """Standard deviation of what unknown tone curves move all edges by, over the blur."""
+
+_MISFIT_BIAS = 5.0
+"""How much farther bright rims and shadows move them, over the blur and what they change of the light."""
 
 _ALIKE = 0.02
 """Standard deviation of what moves a stretch of the edge alike in all gaps: light, blur, pixels [px]."""
 
 _STRETCHES = 8
 """Stretches of a gap in which that differs."""
+
+_ONE_SIDE = 0.4
+"""Depth of the flank that places the wheel over that of the loaded one, from which the other is tried."""
 
 _LEAST_PITCH = 24.0
 """Pixels of a pitch from which teeth are measured; over the blur at least as many."""
@@ -81,6 +92,7 @@ class Placement:
     bias: float  # by which all edges are found too far outside [px]
     tip_change: float  # of the tip circle's radius [mm]
     blur: float  # standard deviation of the blur of edges [px]
+    edge_misfit: float  # how far their light is off a blurred step, over the contrast
     noise: float  # standard deviation of one edge [px]
     correlation: float  # edges that stand for one of their own
     covariance: Vector  # of all unknowns
@@ -98,6 +110,19 @@ class Placement:
     def depth(self) -> Vector:
         """How deep the edge lies below the new form [mm], nan without one, shape (teeth, stations)."""
         return np.asarray((self.bias - self.edges.off) / self.edges.gaps.stretch)
+
+    @property
+    def away_share(self) -> float:
+        """Greatest mean depth of the side that places the wheel, over that of the loaded one."""
+        mean, side = _median(self.depth), self.stations.from_middle * (1.0 if self.left_worn else -1.0)
+        inner = np.abs(side) < 1.0 - _CORNER
+        loaded, away = (float(mean[inner & (sign * side > 0.1)].max()) for sign in (1.0, -1.0))
+        return away / max(loaded, 1e-9)
+
+    @property
+    def lacks_on_one_side(self) -> bool:
+        """Whether steel is missing on the loaded side alone, or nearly so."""
+        return self.away_share < _ONE_SIDE
 
     @property
     def depth_by_unknowns(self) -> Vector:
@@ -127,6 +152,16 @@ def place_wheel(
     scale = known(best.projection)
     again = _Fit(photograph.name, image, best.wheel, best.projection, scale).placed()
     return replace(again, known=scale, form_scale=best.scale)
+
+
+def smoothing_window(stations: int) -> int:
+    """Return how many stations of a gap are smoothed together."""
+    return max(7, 2 * int(0.5 * _WINDOW * stations) + 1)
+
+
+def edge_bias(blur: float, misfit: float) -> float:
+    """Return the standard deviation of what moves all edges alike [px]."""
+    return blur * math.hypot(_EDGE_BIAS, _MISFIT_BIAS * misfit)
 
 
 def edge_image(photograph: Photograph, seen: Silhouette) -> EdgeImage:
@@ -173,7 +208,7 @@ class _Fit:
         self.normals = around(self.stations.normals, wheel.teeth)
         self.tip_points, self.tip_normals = _tips(wheel, int(max(3.0, 0.1 * pixels)))
         self.tip = self.bias = 0.0
-        self.blur = 1.0
+        self.blur, self.edge_misfit = 1.0, 0.0
         self.left_worn = True
         side = self.stations.from_middle
         self.inner = np.abs(side) < 1.0 - _CORNER
@@ -186,12 +221,21 @@ class _Fit:
             edges = self._edges(refined=False)
             self._step(edges, unworn)
         edges = self._edges(refined=False)
-        self.blur = self._blur(edges)
+        self.blur, self.edge_misfit = self._blur(edges)
         self._check_resolution()
         for _ in range(2):
             self._step(self._edges(), unworn)
         edges = self._edges()
-        self.left_worn = self._lacks_more_on_left(edges)
+        left = self._lacks_more_on_left(edges)
+        found = copy(self)._worn_on(left, edges)
+        if found.lacks_on_one_side:
+            return found
+        other = copy(self)._worn_on(not left, edges)
+        return min(found, other, key=lambda one: one.away_share)
+
+    def _worn_on(self, left: bool, edges: Edges) -> Placement:
+        """Return the wheel where it fits best by all but the left side of its gaps, or the right one."""
+        self.left_worn = left
         for count in range(8):
             unworn = self._unworn(edges, first=count < 2)
             solved = self._step(edges, unworn)
@@ -204,6 +248,7 @@ class _Fit:
             bias=self.bias,
             tip_change=self.tip,
             blur=self.blur,
+            edge_misfit=self.edge_misfit,
             noise=solved.noise,
             correlation=solved.correlation,
             covariance=solved.covariance,
@@ -217,11 +262,18 @@ class _Fit:
             self.projection, self.tip_points * (1.0 + self.tip / self.wheel.tip_radius), self.tip_normals
         )
         off = self._off(gaps, np.broadcast_to(self.expected, gaps.stretch.shape), refined)
-        # A blurred edge that is bent lies nearer to the middle of its curvature.
-        off = off - 0.5 * self.blur**2 * self.stations.curvature / gaps.stretch
         with np.errstate(all="ignore"):
+            curvature = self._worn_curvature(np.nan_to_num(_median(off)) / gaps.stretch.mean(axis=0))
+            # A blurred edge that is bent lies nearer to the middle of its curvature.
+            off = off - 0.5 * self.blur**2 * curvature / gaps.stretch
             self.expected = np.nan_to_num(_median(off))
         return Edges(gaps, off, tips, self._off(tips, np.zeros_like(tips.stretch), refined))
+
+    def _worn_curvature(self, outside: Vector) -> Vector:
+        """Curvature of the mean edge, which lies so far outside of the new form [1/mm]."""
+        step = float(self.stations.way[1] - self.stations.way[0])
+        window = smoothing_window(outside.size)
+        return self.stations.curvature + savgol_filter(outside, window, 2, deriv=2, delta=step)
 
     def _off(self, seen: SeenStations, expected: Vector, refined: bool) -> Vector:
         points, normals, there = seen.points.reshape(-1, 2), seen.normals.reshape(-1, 2), expected.ravel()
@@ -234,7 +286,7 @@ class _Fit:
         found = there + self.image.refined(about, normals, found, self.blur)
         return found.reshape(seen.stretch.shape)
 
-    def _blur(self, edges: Edges) -> float:
+    def _blur(self, edges: Edges) -> Blur:
         return self.image.blur(
             edges.gaps.points.reshape(-1, 2), edges.gaps.normals.reshape(-1, 2), edges.off.ravel()
         )
@@ -284,8 +336,9 @@ class _Fit:
         unit = np.eye(_BIAS + 1)
         rows = [unit[NUMBERS - 1] / _DISTORTION, unit[_TIP] / (_TIP_TOLERANCE * self.wheel.pitch)]
         off = [-self.projection.distortion / _DISTORTION, -self.tip / (_TIP_TOLERANCE * self.wheel.pitch)]
-        rows.append(unit[_BIAS] / (EDGE_BIAS * self.blur))
-        off.append(-self.bias / (EDGE_BIAS * self.blur))
+        bias = edge_bias(self.blur, self.edge_misfit)
+        rows.append(unit[_BIAS] / bias)
+        off.append(-self.bias / bias)
         if self.known is not None:
             by_numbers = np.concatenate([self.projection.scale_by_numbers, [0.0, 0.0]])
             rows.append(by_numbers / self.known.error)

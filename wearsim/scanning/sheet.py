@@ -13,6 +13,7 @@ from wearsim.report.text_lines import Finding, answer_text, closing
 from wearsim.result import life_keys
 from wearsim.result.lives import hours
 from wearsim.scanning.model import SURE, ScannedWheel
+from wearsim.scanning.over_pins import OverPins, over_pins
 from wearsim.study.remaining.model import RemainingLife
 
 
@@ -107,9 +108,22 @@ def _findings(found: ScannedWheel) -> Iterator[Finding]:
         f"{teeth.min():.3f} to {teeth.max():.3f} mm there, standard deviation {teeth.std():.3f} mm",
     )
     yield Finding("Other flank", f"{max(depths.other_depth, 0.0):.3f} mm where it is deepest")
+    if (pins := over_pins(depths)) is not None:
+        is_less = pins.decrease > SURE * pins.error
+        less = (
+            f"{pins.decrease:.3f} mm less than the new form"
+            if is_less
+            else "as the new form, within the error"
+        )
+        yield Finding(
+            "Over pins",
+            f"{pins.size:.3f} mm +- {pins.error:.3f} with pins of the roller's diameter, "
+            f"{pins.pin_diameter:g} mm: {less}",
+        )
     yield Finding("New form", f"fits within {depths.misfit:.3f} mm where the wheel is not worn")
     by = (
-        f"the form of the teeth, if their pitch is {wheel.pitch:g} mm: check it with --bore-mm or --scale"
+        f"the form of the teeth, if their pitch is {wheel.pitch:g} mm: a wrong chain gives wrong millimetres "
+        "without another sign, so check it with --bore-mm or --scale"
         if place.known is None
         else place.known.words
     )
@@ -141,14 +155,27 @@ def scan_json(found: ScannedWheel) -> dict[str, Any]:
         "deepest_diameter_mm": 2.0 * depths.deepest_radius,
         "teeth_depth_mm": [plain(float(value)) for value in depths.of_teeth],
         "other_flank_depth_mm": depths.other_depth,
+        **_over_pins_json(over_pins(depths)),
         "misfit_mm": depths.misfit,
         "scale_px_per_mm": place.scale,
+        "scale_by": "form of the teeth" if place.known is None else place.known.words,
         "blur_px": place.blur,
         "edge_scatter_px": place.noise,
         "hours": found.hours,
         **({} if left is None else _remaining_json(left)),
         "assumptions": list(found.assumptions),
         "warnings": list(found.warnings),
+    }
+
+
+def _over_pins_json(pins: OverPins | None) -> dict[str, Any]:
+    if pins is None:
+        return {}
+    return {
+        "pin_diameter_mm": pins.pin_diameter,
+        "size_over_pins_mm": pins.size,
+        "over_pins_mm": pins.decrease,
+        "over_pins_se_mm": pins.error,
     }
 
 

@@ -210,12 +210,12 @@ def _count_teeth(radii: Vector, name: str) -> tuple[int, float]:
         raise bad_photograph(
             name,
             "a toothed wheel must be in the picture, but the outline that is found has no teeth that repeat: "
-            "lay the wheel alone on plain ground, seen along its axis",
+            "lay the wheel alone on plain ground, without its chain, seen along its axis",
         )
     if crossings != 2 * teeth:
         raise bad_photograph(
             name,
             f"the teeth must be countable, but the outline repeats {teeth} times and has {crossings // 2} "
-            "teeth: clean the wheel, remove what lies at its teeth, and avoid shadows",
+            "teeth: take the chain off, clean the wheel, remove what lies at its teeth, and avoid shadows",
         )
     return teeth, float(-np.angle(waves[teeth]) + math.pi) / teeth

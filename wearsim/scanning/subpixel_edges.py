@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy import ndimage
@@ -21,6 +22,13 @@ _BLURS = np.geomspace(0.45, 9.0, 28)
 
 _PROFILES = 1500
 """Edges that the blur is found from."""
+
+
+class Blur(NamedTuple):
+    """How light goes over from steel to ground."""
+
+    deviation: float  # standard deviation of the blur [px]
+    misfit: float  # how far the light is off a blurred step, root mean square, over the contrast
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +81,8 @@ class EdgeImage:
             known = np.isfinite(found)
         return found
 
-    def blur(self, points: Vector, normals: Vector, start: Vector) -> float:
-        """Return the standard deviation of the blur of edges [px]."""
+    def blur(self, points: Vector, normals: Vector, start: Vector) -> "Blur":
+        """Return the blur that fits the median of edges best."""
         some = np.flatnonzero(np.isfinite(start))
         some = some[:: max(1, some.size // _PROFILES)]
         misfits = []
@@ -87,7 +95,8 @@ class EdgeImage:
             basis = np.column_stack([np.ones_like(ways), ndtr(ways / blur)])
             factors, *_ = np.linalg.lstsq(basis, mean, rcond=None)
             misfits.append(float(np.sqrt(np.mean((mean - basis @ factors) ** 2)) / abs(factors[1])))
-        return float(_BLURS[int(np.argmin(misfits))])
+        best = int(np.argmin(misfits))
+        return Blur(float(_BLURS[best]), misfits[best])
 
 
 def _step_solution(blur: float) -> tuple[Vector, Vector]:
