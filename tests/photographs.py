@@ -122,9 +122,7 @@ def wheel(gaps: Sequence[Points]) -> Points:
     return np.concatenate(outline)
 
 
-def photographed(
-    points: Points, radius: float, camera: Camera, height: float = 0.0
-) -> tuple[Points, float]:
+def photographed(points: Points, radius: float, camera: Camera, height: float = 0.0) -> tuple[Points, float]:
     """Return points so high above the wheel's plane [mm] in the picture, and the pixels of a millimetre."""
     turned = points @ np.array(
         [[math.cos(camera.turn), math.sin(camera.turn)], [-math.sin(camera.turn), math.cos(camera.turn)]]

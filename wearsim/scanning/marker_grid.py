@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wearsim.geometry.profile_points import Vector
+from wearsim.scanning.papers import PAPERS
 
 SPACING = 10.0
 """Distance of dots [mm]."""
@@ -29,9 +30,6 @@ _EDGE, _WORDS = 12.0, 62.0
 
 _CLEAR = 3.0
 """Way from the free circle to the dots [mm]."""
-
-PAPERS = {"a4": (210.0, 297.0), "a3": (297.0, 420.0), "letter": (215.9, 279.4), "tabloid": (279.4, 431.8)}
-"""Width and height [mm]."""
 
 Numbers = NDArray[np.int64]
 
@@ -63,10 +61,7 @@ class MarkerSheet:
     def _reach(self) -> tuple[int, int]:
         """Largest column and row."""
         width, height = self.size
-        return (
-            int((0.5 * width - _EDGE) / SPACING),
-            int((0.5 * (height - _EDGE - _WORDS)) / SPACING),
-        )
+        return (int((0.5 * width - _EDGE) / SPACING), int((0.5 * (height - _EDGE - _WORDS)) / SPACING))
 
     @property
     def origin(self) -> tuple[float, float]:

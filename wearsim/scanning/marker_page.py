@@ -10,17 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from wearsim._version import __version__
-from wearsim.scanning.marker_grid import (
-    DOT,
-    HOLE,
-    RULER,
-    MarkerSheet,
-    dot_points,
-    is_ring,
-    largest_wheel,
-)
-
-PAGE_FORMATS = ("pdf", "svg", "png")
+from wearsim.scanning.marker_grid import DOT, HOLE, RULER, MarkerSheet, dot_points, is_ring, largest_wheel
 
 _DOTS_PER_INCH = 300
 _TEXT, _LINE = 9.0, 5.2
@@ -31,7 +21,7 @@ _BELOW_DOTS = 12.0
 
 
 def marker_page(paper: str, form: str) -> bytes:
-    """Return the marker sheet in its true size as the content of a file, in one of `PAGE_FORMATS`."""
+    """Return the marker sheet in its true size as the content of a file, of `PAGE_FORMATS`."""
     sheet = MarkerSheet(paper)
     width, height = sheet.size
     figure = Figure(figsize=(width / 25.4, height / 25.4))

@@ -206,9 +206,7 @@ def _axes(start: int, tree: KDTree, blobs: Blobs) -> Vector | None:
     return None
 
 
-def _grown(
-    start: int, axes: Vector, tree: KDTree, blobs: Blobs, free: set[int]
-) -> Piece:
+def _grown(start: int, axes: Vector, tree: KDTree, blobs: Blobs, free: set[int]) -> Piece:
     """Return what is reached from a blob by steps to neighbours; the steps change slowly on the way."""
     piece, taken = {(0, 0): start}, {start}
     todo = deque([((0, 0), axes)])
@@ -263,9 +261,7 @@ def _placed(piece: Piece, blobs: Blobs) -> Piece:
     share, other = (0.5 * (1.0 + one / len(places)) for one in (best, next_best))
     if share < _AGREE or share - other < _UNLIKE:
         return {}
-    return {
-        (int(column), int(row)): blob for (column, row), blob in zip(at, piece.values(), strict=True)
-    }
+    return {(int(column), int(row)): blob for (column, row), blob in zip(at, piece.values(), strict=True)}
 
 
 def _fits(piece: Piece, sheet: Piece, blobs: Blobs) -> bool:

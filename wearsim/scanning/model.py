@@ -8,7 +8,8 @@ from wearsim.scanning.flank_depths import FlankDepths, flank_depths
 from wearsim.scanning.known_scales import LookUp
 from wearsim.scanning.new_wheel import NewWheel
 from wearsim.scanning.photograph import Photograph, bad_photograph
-from wearsim.scanning.placement import EDGE_BIAS, SEARCH, place_wheel
+from wearsim.scanning.placement import ANY_CAMERA, EDGE_BIAS, SEARCH, place_wheel
+from wearsim.scanning.sheet_placement import SeenSheet, uneven_warning
 from wearsim.scanning.silhouette import Silhouette
 from wearsim.study.remaining.model import RemainingLife
 
@@ -39,6 +40,7 @@ class ScannedWheel:
     seen: Silhouette
     depths: FlankDepths
     warnings: tuple[str, ...]
+    sheet: SeenSheet | None = None  # that lies under it
     hours: float | None = None  # running time of the sprocket [h]
     remaining: RemainingLife | None = None  # what is left of its life after them
 
@@ -66,18 +68,27 @@ class ScannedWheel:
 
 
 def scan_photograph(
-    photograph: Photograph, seen: Silhouette, wheel: NewWheel, known: LookUp | None = None
+    photograph: Photograph,
+    seen: Silhouette,
+    wheel: NewWheel,
+    known: LookUp | None = None,
+    sheet: SeenSheet | None = None,
 ) -> ScannedWheel:
-    """Return the wear of the sprocket in a photograph; raise CaseError where it cannot be measured."""
+    """Return the wear of the sprocket in a photograph; raise CaseError where it cannot be measured.
+
+    The dots of a marker sheet are already cleared from the photograph.
+    """
     if wheel.teeth != seen.teeth:
         raise bad_photograph(
             photograph.name,
             f"the wheel must have {wheel.teeth} teeth as given, but {seen.teeth} are counted: give the case "
             "of this wheel, or correct the number of teeth",
         )
-    depths = flank_depths(place_wheel(photograph, wheel, seen, known))
+    camera = ANY_CAMERA if sheet is None else sheet.camera_over(wheel)
+    depths = flank_depths(place_wheel(photograph, wheel, seen, known, camera))
     _check_fit(photograph, depths)
-    return ScannedWheel(photograph, seen, depths, tuple(_warnings(seen, depths)))
+    warnings = (*_warnings(depths), *_tilt_warnings(seen, sheet))
+    return ScannedWheel(photograph, seen, depths, warnings, sheet)
 
 
 def _check_fit(photograph: Photograph, depths: FlankDepths) -> None:
@@ -98,7 +109,7 @@ def _check_fit(photograph: Photograph, depths: FlankDepths) -> None:
         )
 
 
-def _warnings(seen: Silhouette, depths: FlankDepths) -> Iterator[str]:
+def _warnings(depths: FlankDepths) -> Iterator[str]:
     place = depths.place
     misfit = depths.misfit * place.scale
     if misfit > _OFF_FORM:
@@ -116,10 +127,9 @@ def _warnings(seen: Silhouette, depths: FlankDepths) -> Iterator[str]:
             f"both flanks are worn ({depths.other_depth:.2g} mm on the other one), so that little is left to "
             "place the wheel by, or the profile is another: the sum of both depths is more certain than each"
         )
-    if seen.roundness < _TILTED:
-        angle = math.degrees(math.acos(seen.roundness))
-        yield f"the camera was tilted by about {angle:.0f} degrees, and may see sides of teeth: hold it level"
-    if place.known and abs(place.known.scale / place.form_scale - 1.0) > _SCALES_DIFFER[0]:
+    if place.known and abs(place.known.scale / place.form_scale - 1.0) > max(
+        _SCALES_DIFFER[0], SURE * place.known.error
+    ):
         part = 100.0 * (place.known.scale / place.form_scale - 1.0)
         yield f"the scale of {place.known.words} differs by {part:+.1f} % from that of the teeth: check both"
     if depths.seen_share < _SEEN:
@@ -129,3 +139,17 @@ def _warnings(seen: Silhouette, depths: FlankDepths) -> Iterator[str]:
         )
     if depths.depth > 0.8 * SEARCH * place.wheel.pitch:
         yield f"edges are looked for down to {SEARCH * place.wheel.pitch:.2g} mm: the wear may be deeper"
+
+
+def _tilt_warnings(seen: Silhouette, sheet: SeenSheet | None) -> Iterator[str]:
+    tilt = math.acos(min(1.0, seen.roundness)) if sheet is None else sheet.camera.tilt
+    if math.cos(tilt) < _TILTED:
+        yield (
+            f"the camera was tilted by about {math.degrees(tilt):.0f} degrees, and may see sides of teeth: "
+            "hold it level"
+        )
+    if sheet is not None:
+        if sheet.mirrored:
+            yield "the picture is a mirror image, as the marker sheet shows: flanks face as in the picture"
+        if uneven := uneven_warning(sheet):
+            yield uneven

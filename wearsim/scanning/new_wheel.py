@@ -31,6 +31,7 @@ class NewWheel:
     pitch: float  # of the chain [mm]
     gap: Vector  # points of a gap about +y, from its right tip to its left one [mm], shape (n, 2)
     words: str  # which form it is
+    thickness: float  # of the teeth [mm]
     per_case: bool = False  # whether the number of teeth was said, not counted
 
     @property
@@ -111,7 +112,8 @@ def wheel_of_case(case: "Case") -> NewWheel:
     points = np.concatenate(parts)
     apart = np.concatenate([[True], np.hypot(*np.diff(points, axis=0).T) > 1e-9])
     pitch = 2.0 * shape.pitch_radius * math.sin(math.pi / len(shape.new))
-    return NewWheel(len(shape.new), pitch, points[apart], f"the sprocket of {case.title}", per_case=True)
+    words = f"the sprocket of {case.title}"
+    return NewWheel(len(shape.new), pitch, points[apart], words, shape.width, per_case=True)
 
 
 def wheel_of_chain(designation: str, teeth: int, profile: str | None) -> NewWheel:
@@ -128,7 +130,8 @@ def wheel_of_chain(designation: str, teeth: int, profile: str | None) -> NewWhee
     except GeometryError as error:
         raise CaseError([Fault(str(error), "", f"--profile {form}")]) from None
     gap = np.column_stack([outline.x, outline.y])
-    return NewWheel(teeth, chain.pitch, gap, f"{form} for {chain.designation}, {teeth} teeth")
+    thickness = (chain.strands - 1) * chain.transverse_pitch + chain.face_width / chain.strands
+    return NewWheel(teeth, chain.pitch, gap, f"{form} for {chain.designation}, {teeth} teeth", thickness)
 
 
 def around(points: Vector, teeth: int) -> Vector:

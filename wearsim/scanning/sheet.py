@@ -13,6 +13,7 @@ from wearsim.report.text_lines import Finding, answer_text, closing
 from wearsim.result import life_keys
 from wearsim.result.lives import hours
 from wearsim.scanning.model import SURE, ScannedWheel
+from wearsim.scanning.sheet_placement import SeenSheet
 from wearsim.study.remaining.model import RemainingLife
 
 
@@ -117,13 +118,22 @@ def _findings(found: ScannedWheel) -> Iterator[Finding]:
     yield Finding(
         "Picture",
         f"{found.photograph.width} x {found.photograph.height} pixels, {wheel.pitch * place.scale:.0f} to a "
-        f"pitch; blur {place.blur:.1f}, scatter of the edge {place.noise:.2f} pixels",
+        f"pitch; blur {place.blur:.1f}, scatter of the edge {place.noise:.2f} pixels"
+        + ("" if found.sheet is None else f"; {_seen_by(found.sheet)}"),
     )
     if found.remaining is not None:
         left = found.remaining
         band = f"{hours(left.remaining_low)} to {hours(left.remaining_high)}"
         yield Finding("Remaining", f"{hours(left.remaining)} after {grouped(left.reading.hours)} h")
         yield Finding("Band", f"{band} by two standard errors of the depth")
+
+
+def _seen_by(sheet: SeenSheet) -> str:
+    seen = sheet.camera.projection
+    return (
+        f"camera tilted by {math.degrees(sheet.camera.tilt):.1f} degrees, lens distortion "
+        f"{100.0 * (seen.distortion + seen.second_distortion):+.2f} %, dots within {sheet.scatter:.3f} mm"
+    )
 
 
 def scan_json(found: ScannedWheel) -> dict[str, Any]:
@@ -145,10 +155,23 @@ def scan_json(found: ScannedWheel) -> dict[str, Any]:
         "scale_px_per_mm": place.scale,
         "blur_px": place.blur,
         "edge_scatter_px": place.noise,
+        **({} if found.sheet is None else _sheet_json(found.sheet)),
         "hours": found.hours,
         **({} if left is None else _remaining_json(left)),
         "assumptions": list(found.assumptions),
         "warnings": list(found.warnings),
+    }
+
+
+def _sheet_json(sheet: SeenSheet) -> dict[str, Any]:
+    seen = sheet.camera.projection
+    return {
+        "sheet_dots": len(sheet.markers.dots),
+        "sheet_scatter_mm": sheet.scatter,
+        "camera_tilt_degrees": math.degrees(sheet.camera.tilt),
+        "camera_height_mm": sheet.height,
+        "lens_distortion": seen.distortion + seen.second_distortion,
+        "mirrored": sheet.mirrored,
     }
 
 

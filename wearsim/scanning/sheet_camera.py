@@ -70,10 +70,8 @@ class SheetCamera:
         return math.sqrt(slope @ self.covariance @ slope)
 
 
-def sheet_camera(
-    dots: Numbers, points: Vector, size: tuple[int, int], noted: float | None
-) -> tuple[SheetCamera, Vector]:
-    """Return the camera that sees dots at points of a picture, and how far each is off [px], shape (n,).
+def sheet_camera(dots: Numbers, points: Vector, size: tuple[int, int], noted: float | None) -> SheetCamera:
+    """Return the camera that sees dots at points of a picture.
 
     The focal length that the camera noted [px] helps with its height above the sheet.
     """
@@ -91,7 +89,7 @@ def sheet_camera(
     covariance = noise**2 * np.linalg.inv(rows.T @ rows)
     projection = _with(start, numbers)
     focal_length, position, height_error, tilt = _pose(projection, max(size), noted)
-    return SheetCamera(projection, covariance, noise, focal_length, position, height_error, tilt), off
+    return SheetCamera(projection, covariance, noise, focal_length, position, height_error, tilt)
 
 
 def _start(flat: Vector, points: Vector, size: tuple[int, int]) -> Projection:
@@ -146,9 +144,7 @@ def _fit(start: Projection, numbers: Vector, flat: Vector, points: Vector) -> Op
     return least_squares(off, numbers, x_scale=1e5 * sizes)
 
 
-def _pose(
-    projection: Projection, larger: int, noted: float | None
-) -> tuple[float, Vector, float, float]:
+def _pose(projection: Projection, larger: int, noted: float | None) -> tuple[float, Vector, float, float]:
     """Return focal length [px], place of the camera [mm], relative error of its height, and tilt [rad].
 
     Both axes of the sheet must be square and of one scale, which tells the focal length where the camera is
@@ -185,10 +181,7 @@ def _axes(projection: Projection, unknown: Vector) -> Vector:
     """Return both axes of the sheet and its origin as the camera sees them, as columns."""
     focal_length = math.exp(unknown[0])
     homogeneous = np.vstack(
-        [
-            np.column_stack([projection.matrix / _UNIT, projection.centre]),
-            [*(projection.slant / _UNIT), 1.0],
-        ]
+        [np.column_stack([projection.matrix / _UNIT, projection.centre]), [*(projection.slant / _UNIT), 1.0]]
     )
     to_axis = np.array(
         [
@@ -209,4 +202,3 @@ def _place(axes: Vector) -> tuple[Vector, float]:
     normal /= np.linalg.norm(normal)
     place = -np.array([first @ origin, second @ origin, normal @ origin])
     return np.array([*place[:2], abs(place[2])]), math.acos(min(1.0, abs(float(normal[2]))))
-
