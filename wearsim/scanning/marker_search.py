@@ -58,6 +58,10 @@ Piece = dict[tuple[int, int], int]
 """Blobs by columns and rows."""
 
 
+Window = tuple[slice, ...]
+"""Rows and columns of a picture."""
+
+
 class Blobs(NamedTuple):
     """Round dark spots."""
 
@@ -123,7 +127,7 @@ def _find_blobs(light: Light) -> Blobs:
     return Blobs(points.reshape(-1, 2), diameters, papers, hollow.astype(bool))
 
 
-def _may_be_dot(window: tuple[slice, slice], shape: tuple[int, ...]) -> bool:
+def _may_be_dot(window: Window, shape: tuple[int, ...]) -> bool:
     high, wide = (part.stop - part.start for part in window)
     inside = all(part.start > 0 and part.stop < side for part, side in zip(window, shape, strict=True))
     large = high * wide > 4.0 / math.pi * _MOST_AREA * shape[0] * shape[1]
@@ -131,7 +135,7 @@ def _may_be_dot(window: tuple[slice, slice], shape: tuple[int, ...]) -> bool:
 
 
 def _blob(
-    light: Light, dark: NDArray[np.bool_], window: tuple[slice, slice], step: int
+    light: Light, dark: NDArray[np.bool_], window: Window, step: int
 ) -> tuple[Vector, float, float, bool] | None:
     """Return middle, diameter, paper beside it, and whether its middle is bright; None of what is no dot."""
     filled = ndimage.binary_fill_holes(dark)
@@ -194,8 +198,8 @@ def _pieces(blobs: Blobs) -> list[Piece]:
 
 def _axes(start: int, tree: KDTree, blobs: Blobs) -> Vector | None:
     """Return the ways to two neighbours that lie about square to each other, as rows."""
-    _, near = tree.query(blobs.points[start], 9)
-    ways = blobs.points[[one for one in near if one not in (start, tree.n)]] - blobs.points[start]
+    near = np.asarray(tree.query(blobs.points[start], 9)[1])
+    ways = blobs.points[near[near != start]] - blobs.points[start]
     like = np.hypot(*ways.T) < 2.5 * SPACING / (2.0 * DOT) * blobs.diameters[start]
     for first in ways[like][:2]:
         for second in ways[like]:
@@ -273,16 +277,17 @@ def _fits(piece: Piece, sheet: Piece, blobs: Blobs) -> bool:
 
 def _completed(sheet: Piece, blobs: Blobs) -> Piece:
     """Return the sheet with blobs that stand alone where it has a dot."""
-    line = np.arange(-FARTHEST, FARTHEST + 1)
-    places = np.array([(i, j) for i in line for j in line if (i, j) not in sheet])
+    line = range(-FARTHEST, FARTHEST + 1)
+    places = [(i, j) for i in line for j in line if (i, j) not in sheet]
+    nearest = KDTree(_expected(np.array(places), sheet, blobs)).query(blobs.points)
+    off, which = (np.asarray(one) for one in nearest)
     taken = set(sheet.values())
-    off, which = KDTree(blobs.points).query(_expected(places, sheet, blobs))
-    found = (off < _NEAR * blobs.diameters[which]) & (is_ring(*places.T) == blobs.hollow[which])
-    return sheet | {
-        (int(i), int(j)): int(blob)
-        for (i, j), blob in zip(places[found], which[found], strict=True)
-        if blob not in taken
-    }
+    found = dict(sheet)
+    for blob, (way, number) in enumerate(zip(off, which, strict=True)):
+        alike = bool(is_ring(*np.array(places[number]))) == bool(blobs.hollow[blob])
+        if blob not in taken and alike and way < _NEAR * blobs.diameters[blob]:
+            found[places[number]] = blob
+    return found
 
 
 def _expected(places: Numbers, sheet: Piece, blobs: Blobs) -> Vector:

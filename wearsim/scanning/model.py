@@ -8,7 +8,7 @@ from wearsim.scanning.flank_depths import FlankDepths, flank_depths
 from wearsim.scanning.known_scales import LookUp
 from wearsim.scanning.new_wheel import NewWheel
 from wearsim.scanning.photograph import Photograph, bad_photograph
-from wearsim.scanning.placement import ANY_CAMERA, EDGE_BIAS, SEARCH, place_wheel
+from wearsim.scanning.placement import ANY_CAMERA, EDGE_BIAS, SEARCH, Placement, place_wheel
 from wearsim.scanning.sheet_placement import SeenSheet, uneven_warning
 from wearsim.scanning.silhouette import Silhouette
 from wearsim.study.remaining.model import RemainingLife
@@ -94,11 +94,11 @@ def scan_photograph(
 def _check_fit(photograph: Photograph, depths: FlankDepths) -> None:
     """Raise where the wheel in the picture cannot be the one that is said."""
     place = depths.place
-    if place.known and abs(place.known.scale / place.form_scale - 1.0) > _SCALES_DIFFER[1]:
+    if place.known and abs(part := place.known.scale / place.form_scale - 1.0) > _SCALES_DIFFER[1]:
         raise bad_photograph(
             photograph.name,
             f"the scale of {place.known.words} and that of the teeth must agree, but differ by "
-            f"{100.0 * (place.known.scale / place.form_scale - 1.0):+.1f} %: check both, and the profile",
+            f"{100.0 * part:+.1f} %: {place.known.remedy}, and the profile",
         )
     share = depths.seen_share
     if not share > 0.5:
@@ -127,11 +127,7 @@ def _warnings(depths: FlankDepths) -> Iterator[str]:
             f"both flanks are worn ({depths.other_depth:.2g} mm on the other one), so that little is left to "
             "place the wheel by, or the profile is another: the sum of both depths is more certain than each"
         )
-    if place.known and abs(place.known.scale / place.form_scale - 1.0) > max(
-        _SCALES_DIFFER[0], SURE * place.known.error
-    ):
-        part = 100.0 * (place.known.scale / place.form_scale - 1.0)
-        yield f"the scale of {place.known.words} differs by {part:+.1f} % from that of the teeth: check both"
+    yield from _scale_warnings(place)
     if depths.seen_share < _SEEN:
         yield (
             f"only {100.0 * depths.seen_share:.0f} % of the worn flank has a clear edge: clean the wheel, "
@@ -139,6 +135,17 @@ def _warnings(depths: FlankDepths) -> Iterator[str]:
         )
     if depths.depth > 0.8 * SEARCH * place.wheel.pitch:
         yield f"edges are looked for down to {SEARCH * place.wheel.pitch:.2g} mm: the wear may be deeper"
+
+
+def _scale_warnings(place: Placement) -> Iterator[str]:
+    if place.known is None:
+        return
+    part = place.known.scale / place.form_scale - 1.0
+    if abs(part) > max(_SCALES_DIFFER[0], SURE * place.known.error):
+        yield (
+            f"the scale of {place.known.words} differs by {100.0 * part:+.1f} % from that of the teeth: "
+            f"{place.known.remedy}"
+        )
 
 
 def _tilt_warnings(seen: Silhouette, sheet: SeenSheet | None) -> Iterator[str]:

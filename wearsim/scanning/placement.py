@@ -49,6 +49,9 @@ _STRETCHES = 8
 _LEAST_PITCH = 24.0
 """Pixels of a pitch from which teeth are measured; over the blur at least as many."""
 
+_STEPS, _AGAIN = 8, 5
+"""Steps once the loaded side is known, and again once the scale is."""
+
 _UNWORN = 2.5
 """Standard errors by which the mean of all gaps may lack steel where it does not wear."""
 
@@ -61,6 +64,7 @@ class KnownScale(NamedTuple):
     scale: float  # [px/mm]
     error: float  # standard deviation, relative
     words: str  # where it is from
+    remedy: str = "check both"  # where it differs from that of the teeth
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,13 +150,13 @@ def place_wheel(
     image = edge_image(photograph, seen)
     start = first_projection(photograph, wheel, seen, camera)
     ways = [wheel] if wheel.symmetric else [wheel, wheel.mirrored]
-    found = [_Fit(photograph.name, image, way, start, None, camera).placed() for way in ways]
-    best = min(found, key=lambda one: one.noise)
+    fits = [_Fit(photograph.name, image, way, start, camera) for way in ways]
+    found = [fit.placed() for fit in fits]
+    best, fit = min(zip(found, fits, strict=True), key=lambda pair: pair[0].noise)
     if known is None:
         return best
-    scale = known(best.projection)
-    again = _Fit(photograph.name, image, best.wheel, best.projection, scale, camera).placed()
-    return replace(again, known=scale, form_scale=best.scale)
+    fit.known = known(best.projection)
+    return replace(fit.settled(_AGAIN), known=fit.known, form_scale=best.scale)
 
 
 def edge_image(photograph: Photograph, seen: Silhouette) -> EdgeImage:
@@ -194,15 +198,10 @@ class _Fit:
     """Gauss-Newton steps on all edges, found anew after each of them."""
 
     def __init__(
-        self,
-        name: str,
-        image: EdgeImage,
-        wheel: NewWheel,
-        start: Projection,
-        known: KnownScale | None,
-        camera: KnownCamera,
+        self, name: str, image: EdgeImage, wheel: NewWheel, start: Projection, camera: KnownCamera
     ) -> None:
-        self.name, self.image, self.wheel, self.projection, self.known = name, image, wheel, start, known
+        self.name, self.image, self.wheel, self.projection = name, image, wheel, start
+        self.known: KnownScale | None = None
         self.camera = camera
         pixels = wheel.pitch * start.scale
         self.stations = wheel.stations(int(min(_MOST_STATIONS, max(60.0, 2.0 * pixels))))
@@ -218,7 +217,7 @@ class _Fit:
         self.expected = np.zeros(side.size)
 
     def placed(self) -> Placement:
-        """Return the wheel where it fits best."""
+        """Return the wheel where it fits best, with the blur of its edges."""
         unworn = self.inner.copy()
         for _ in range(4):
             edges = self._edges(refined=False)
@@ -228,9 +227,13 @@ class _Fit:
         self._check_resolution()
         for _ in range(2):
             self._step(self._edges(), unworn)
+        self.left_worn = self._lacks_more_on_left(self._edges())
+        return self.settled(_STEPS)
+
+    def settled(self, steps: int) -> Placement:
+        """Return the wheel where it fits best from where it is."""
         edges = self._edges()
-        self.left_worn = self._lacks_more_on_left(edges)
-        for count in range(8):
+        for count in range(steps):
             unworn = self._unworn(edges, first=count < 2)
             solved = self._step(edges, unworn)
             edges = self._edges()

@@ -131,7 +131,8 @@ def _findings(found: ScannedWheel) -> Iterator[Finding]:
 def _seen_by(sheet: SeenSheet) -> str:
     seen = sheet.camera.projection
     return (
-        f"camera tilted by {math.degrees(sheet.camera.tilt):.1f} degrees, lens distortion "
+        f"camera tilted by {math.degrees(sheet.camera.tilt):.1f} +- "
+        f"{math.degrees(sheet.camera.tilt_error):.1f} degrees, lens distortion "
         f"{100.0 * (seen.distortion + seen.second_distortion):+.2f} %, dots within {sheet.scatter:.3f} mm"
     )
 
@@ -169,7 +170,9 @@ def _sheet_json(sheet: SeenSheet) -> dict[str, Any]:
         "sheet_dots": len(sheet.markers.dots),
         "sheet_scatter_mm": sheet.scatter,
         "camera_tilt_degrees": math.degrees(sheet.camera.tilt),
+        "camera_tilt_se_degrees": math.degrees(sheet.camera.tilt_error),
         "camera_height_mm": sheet.height,
+        "camera_height_se_mm": sheet.height * sheet.camera.height_error,
         "lens_distortion": seen.distortion + seen.second_distortion,
         "mirrored": sheet.mirrored,
     }

@@ -43,6 +43,7 @@ class SheetCamera:
     position: Vector  # of the camera: across, up and above the sheet, shape (3,)
     height_error: float  # standard deviation of its height above the sheet, relative
     tilt: float  # of the line of sight against the normal of the sheet [rad]
+    tilt_error: float  # standard deviation of that [rad]
 
     @property
     def height(self) -> float:
@@ -84,12 +85,10 @@ def sheet_camera(dots: Numbers, points: Vector, size: tuple[int, int], noted: fl
         off = np.hypot(*(_with(start, numbers).seen(flat) - points).T)
         kept = off < _FAR_OFF * max(float(np.median(off)) / 1.177, 0.01)
     noise = math.sqrt(float((off[kept] ** 2).sum()) / max(2 * int(kept.sum()) - len(numbers), 1))
-    rows = fitted.jac
-    rows[-2:] *= noise
-    covariance = noise**2 * np.linalg.inv(rows.T @ rows)
+    rows, prior = np.split(np.asarray(fitted.jac), [-2])
+    covariance = np.linalg.inv(rows.T @ rows / noise**2 + prior.T @ prior)
     projection = _with(start, numbers)
-    focal_length, position, height_error, tilt = _pose(projection, max(size), noted)
-    return SheetCamera(projection, covariance, noise, focal_length, position, height_error, tilt)
+    return SheetCamera(projection, covariance, noise, *_pose(projection, max(size), noted))
 
 
 def _start(flat: Vector, points: Vector, size: tuple[int, int]) -> Projection:
@@ -144,8 +143,10 @@ def _fit(start: Projection, numbers: Vector, flat: Vector, points: Vector) -> Op
     return least_squares(off, numbers, x_scale=1e5 * sizes)
 
 
-def _pose(projection: Projection, larger: int, noted: float | None) -> tuple[float, Vector, float, float]:
-    """Return focal length [px], place of the camera [mm], relative error of its height, and tilt [rad].
+def _pose(
+    projection: Projection, larger: int, noted: float | None
+) -> tuple[float, Vector, float, float, float]:
+    """Return focal length [px], place of the camera [mm], relative error of its height, tilt and its error.
 
     Both axes of the sheet must be square and of one scale, which tells the focal length where the camera is
     tilted.
@@ -167,14 +168,18 @@ def _pose(projection: Projection, larger: int, noted: float | None) -> tuple[flo
         )
 
     found = least_squares(off, np.array([middle, 0.0, 0.0]), x_scale=(width, axis, axis))
-    covariance = np.linalg.inv(found.jac.T @ found.jac)
+    rows = np.asarray(found.jac)
+    covariance = np.linalg.inv(rows.T @ rows)
     position, tilt = _place(_axes(projection, found.x))
-    slope = []
+    slopes = []
     for step in np.diag([1e-4, 1e-4 * axis, 1e-4 * axis]):
-        higher, lower = (_place(_axes(projection, found.x + sign * step))[0][2] for sign in (1.0, -1.0))
-        slope.append(math.log(higher / lower) / (2.0 * step.max()))
-    error = math.sqrt(np.array(slope) @ covariance @ np.array(slope))
-    return math.exp(found.x[0]), position, error, tilt
+        (higher, more), (lower, less) = (
+            _place(_axes(projection, found.x + sign * step)) for sign in (1.0, -1.0)
+        )
+        change = np.array([math.log(higher[2] / lower[2]), more - less])
+        slopes.append(change / (2.0 * step.max()))
+    height_error, tilt_error = np.sqrt(np.einsum("ki,kl,li->i", slopes, covariance, slopes))
+    return math.exp(found.x[0]), position, float(height_error), tilt, float(tilt_error)
 
 
 def _axes(projection: Projection, unknown: Vector) -> Vector:

@@ -26,6 +26,8 @@ _LIFT_ERROR = 0.15
 _UNEVEN = (0.1, 0.5)
 """Scatter of the dots that is doubtful, and that is wrong [mm]."""
 
+_REMEDY = "measure the ruler of the print and give it by --ruler-mm, and check the chain"
+
 _SECOND = 24
 """Dots that lie elsewhere from which there is a second sheet."""
 
@@ -70,7 +72,7 @@ class SeenSheet:
                 middle * self.camera.height_error,
             )
             scale = self.camera.scale(at) / self.stretch / (1.0 - middle)
-            return KnownScale(scale, error, self._words(wheel))
+            return KnownScale(scale, error, self._words(wheel), _REMEDY)
 
         return known
 
@@ -98,11 +100,11 @@ class SeenSheet:
         )
 
     def cleared(self, photograph: Photograph) -> Photograph:
-        """Return a photograph with paper in place of the dots and of all that lies beside the sheet."""
-        circle = _circle(DOT + _AROUND_DOT)
-        free = np.hypot(*dot_points(self.markers.dots).T).min() - DOT
-        rims = self.camera.projection.seen(dot_points(self.markers.dots)[:, None] + circle)
-        corners = np.concatenate([*rims, self.camera.projection.seen(free / DOT * _circle(DOT))])
+        """Return a photograph with paper in place of the dots and of all that does not lie between them."""
+        rims = self.camera.projection.seen(
+            dot_points(self.markers.dots)[:, None] + _circle(DOT + _AROUND_DOT)
+        )
+        corners = np.concatenate([*rims])
         held = Image.fromarray(self._beside_cleared(photograph.light, corners[ConvexHull(corners).vertices]))
         draw = ImageDraw.Draw(held)
         for rim, paper in zip(rims, self.markers.paper, strict=True):
