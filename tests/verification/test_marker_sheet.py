@@ -150,7 +150,7 @@ def test_a_print_that_was_fitted_to_the_page(scanned, sheet):
     camera = over_sheet(Print.of(sheet, 0.97, at=ORIGIN))
     (warning,) = scanned(camera).warnings
     assert "ruler" in warning
-    assert "+3." in warning or "-3." in warning
+    assert "differs by -2.9 %" in warning or "differs by -3.0 %" in warning
     found = scanned(camera, ruler=97.0)
     assert found.warnings == ()
     assert found.found.depths.place.known.scale == pytest.approx(true_scale(camera), rel=1e-3)

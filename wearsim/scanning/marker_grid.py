@@ -35,14 +35,22 @@ Numbers = NDArray[np.int64]
 
 
 def is_ring(column: Numbers, row: Numbers) -> NDArray[np.bool_]:
-    """Tell which dots are rings: about half of them, without a rule that repeats itself.
+    """Tell which dots are rings: about half of them, so that no two pieces of 40 dots are alike by 4 / 5.
 
     Examples
     --------
-    >>> is_ring(np.array([0, 9]), np.array([0, -1]))
-    array([ True,  True])
+    >>> is_ring(np.array([1, 0]), np.array([0, 1]))  # 102 and 91, modulo 97
+    array([ True, False])
     """
-    mixed = 4 * column**2 + 14 * row**2 + 29 * column * row + 4 * column + 12 * row
+    mixed = (
+        60 * column**3
+        + 7 * row**3
+        + 63 * column**2 * row
+        + 34 * column * row**2
+        + 22 * column * row
+        + 42 * column
+        + 84 * row
+    )
     return np.asarray(mixed % 97 < 48)
 
 
