@@ -58,11 +58,14 @@ class ScannedWheel:
     def assumptions(self) -> tuple[str, ...]:
         """What the depth rests on."""
         known = self.depths.place.known
+        seen = "the teeth are seen along their axis, and their edges are the outline of the wheel"
+        if self.sheet is not None:
+            seen = "the teeth lie flat on the marker sheet, and the lens points at the middle of the picture"
         return (
             f"the new form is {self.wheel.words}",
             "roots, tips and the less worn flank are as new where they fit the form; the tip diameter is any",
             "the scale is that of the form" if known is None else f"the scale is that of {known.words}",
-            "the teeth are seen along their axis, and their edges are the outline of the wheel",
+            seen,
             "the picture is coded as sRGB, as cameras and scanners do",
         )
 
