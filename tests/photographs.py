@@ -9,6 +9,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import RendererAgg
@@ -16,11 +18,41 @@ from matplotlib.path import Path as AggPath
 from matplotlib.transforms import IdentityTransform
 from numpy.typing import NDArray
 from PIL import Image
-from scipy.ndimage import gaussian_filter
+from scipy.ndimage import gaussian_filter, map_coordinates
 
 from wearsim.geometry.forms import TOOTH_FORMS
 
 Points = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Print:
+    """A page that lies under a wheel, as its file shows it."""
+
+    page: NDArray[np.float32]  # reflectance over that of the paper
+    per_mm: float  # pixels of the page to a millimetre of the print
+    at: tuple[float, float]  # point of the page that lies under the wheel's axis, from the lower left [mm]
+    turn: float = 0.0  # of the page [rad]
+    bulge: float = 0.0  # how high its middle line lies above its edges [mm]
+    table: float = 0.3  # reflectance of what it lies on
+
+    @staticmethod
+    def of(path: str | Path, scale: float = 1.0, **others: Any) -> "Print":
+        """Return the print of a PNG file, larger by a factor than its own resolution says."""
+        with Image.open(path) as file:
+            grey = np.asarray(file.convert("L"), dtype=np.float32) / 255.0
+            return Print(0.06 + 0.94 * grey, file.info["dpi"][0] / 25.4 / scale, **others)
+
+    def seen_from(self, points: Points, below: Points, away: float, paper: float) -> NDArray[np.float32]:
+        """Return the light of points of the table [mm], as a camera sees it so far above a point of it."""
+        height = self.bulge * np.cos(0.03 * points[..., 0])
+        there = points - (points - below) * (height / away)[..., None]
+        cos, sin = math.cos(self.turn), math.sin(self.turn)
+        across, up = np.moveaxis(there @ np.array([[cos, -sin], [sin, cos]]) + self.at, -1, 0)
+        rows = self.page.shape[0] - 0.5 - up * self.per_mm
+        columns = across * self.per_mm - 0.5
+        page = map_coordinates(self.page, [rows, columns], order=1, cval=-1.0)
+        return np.where(page < 0.0, self.table, paper * page).astype(np.float32)
 
 
 @dataclass(frozen=True)
@@ -45,6 +77,8 @@ class Camera:
     dirt: int = 0  # blobs of the wheel's colour at its edge
     shine: float = 0.0  # how much brighter a narrow rim inside the edge is
     gamma: float | None = None  # of the file, instead of the curve of sRGB
+    printed: Print | None = None  # page under the wheel
+    edges: tuple[float, ...] = (0.0,)  # heights of the edges of the teeth above the plane aimed at [mm]
     holes: Sequence[tuple[float, float, float]] = field(default=((0.0, 0.0, 0.2),))
     # x, y and radius over that of the wheel
     seed: int = 0
@@ -113,8 +147,8 @@ def chain_on(pitch: float, roller: float, teeth: int, links: int) -> list[Points
     return shapes
 
 
-def photographed(points: Points, radius: float, camera: Camera) -> tuple[Points, float]:
-    """Return points of the wheel's plane [mm] in the picture, and the pixels of a millimetre."""
+def photographed(points: Points, radius: float, camera: Camera, height: float = 0.0) -> tuple[Points, float]:
+    """Return points so high above the wheel's plane [mm] in the picture, and the pixels of a millimetre."""
     turned = points @ np.array(
         [[math.cos(camera.turn), math.sin(camera.turn)], [-math.sin(camera.turn), math.cos(camera.turn)]]
     )
@@ -123,8 +157,8 @@ def photographed(points: Points, radius: float, camera: Camera) -> tuple[Points,
     cos, sin = math.cos(camera.tilt_direction), math.sin(camera.tilt_direction)
     along, across = turned @ [cos, sin], turned @ [-sin, cos]
     away = 2.0 * radius * camera.distance
-    deep = away + along * math.sin(camera.tilt)
-    along = along * math.cos(camera.tilt)
+    deep = away + along * math.sin(camera.tilt) - height * math.cos(camera.tilt)
+    along = along * math.cos(camera.tilt) + height * math.sin(camera.tilt)
     seen = np.column_stack([cos * along - sin * across, sin * along + cos * across]) * (away / deep)[:, None]
     least = min(camera.size)
     scale = 0.5 * camera.wheel * least / radius
@@ -135,19 +169,47 @@ def photographed(points: Points, radius: float, camera: Camera) -> tuple[Points,
     return optical + 0.5 * least * off * (1.0 + camera.distortion * (off**2).sum(axis=1))[:, None], scale
 
 
+def on_table(camera: Camera, radius: float) -> NDArray[np.float32]:
+    """Return the light of the table with a page on it, where no wheel would lie."""
+    width, height = camera.size
+    least, away = min(camera.size), 2.0 * radius * camera.distance
+    scale = 0.5 * camera.wheel * least / radius
+    optical = 0.5 * np.array(camera.size)
+    seen = np.stack(np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5), axis=-1)
+    bent = (seen - optical) / (0.5 * least)
+    off = bent
+    for _ in range(8):
+        off = bent / (1.0 + camera.distortion * (off**2).sum(axis=-1))[..., None]
+    flat = (optical + 0.5 * least * off - np.array(camera.size) * camera.centre) / scale * [1.0, -1.0]
+    cos, sin = math.cos(camera.tilt_direction), math.sin(camera.tilt_direction)
+    turned = np.array([[cos, sin], [-sin, cos]])
+    along, across = np.moveaxis(flat @ turned.T, -1, 0)
+    # Along is cos t x away / (away + sin t x) for a point x of the table.
+    true = along * away / (away * math.cos(camera.tilt) - along * math.sin(camera.tilt))
+    across = across * (away + true * math.sin(camera.tilt)) / away
+    points = np.stack([true, across], axis=-1) @ turned
+    below = np.array([-away * math.sin(camera.tilt), 0.0]) @ turned
+    if camera.mirror:
+        points, below = points * [-1.0, 1.0], below * [-1.0, 1.0]
+    assert camera.printed is not None
+    return camera.printed.seen_from(points, below, away * math.cos(camera.tilt), camera.ground_light)
+
+
 def picture(outline: Points, camera: Camera, chain: Sequence[Points] = ()) -> Image.Image:
     """Return the picture of a wheel, with the parts of a chain on it."""
     rng = np.random.default_rng(camera.seed)
     width, height = camera.size
     radius = float(np.hypot(*outline.T).max())
-    shapes = [photographed(_dense(outline), radius, camera)[0]]
+    shapes = [_dense(outline)]
     angle = np.linspace(math.tau, 0.0, 400, endpoint=False)
     for x, y, part in camera.holes:
-        ring = np.column_stack([x + part * np.cos(angle), y + part * np.sin(angle)]) * radius
-        shapes.append(photographed(ring, radius, camera)[0])
-    cover = _covered(shapes, width, height)
-    for part in chain:
-        cover = np.maximum(cover, _covered([photographed(part, radius, camera)[0]], width, height))
+        shapes.append(np.column_stack([x + part * np.cos(angle), y + part * np.sin(angle)]) * radius)
+    covers = []
+    for level in camera.edges:
+        seen = [photographed(shape, radius, camera, level)[0] for shape in shapes]
+        covers.append(_covered(seen, width, height))
+    covers += [_covered([photographed(part, radius, camera)[0]], width, height) for part in chain]
+    cover = np.max(covers, axis=0)
     across, down = np.meshgrid(
         np.arange(width, dtype=np.float32) / width, np.arange(height, dtype=np.float32) / height
     )
@@ -159,9 +221,10 @@ def picture(outline: Points, camera: Camera, chain: Sequence[Points] = ()) -> Im
     if camera.shine:
         inside = gaussian_filter(cover, 2.0) - 0.5
         face += camera.shine * np.exp(-(((inside - 0.3) / 0.12) ** 2))
-    image = lit * (camera.ground_light * (1.0 - cover) + face * cover)
+    ground = camera.ground_light if camera.printed is None else on_table(camera, radius)
+    image = lit * (ground * (1.0 - cover) + face * cover)
     for _ in range(camera.dirt):
-        x, y = shapes[0][rng.integers(len(shapes[0]))] + rng.normal(0.0, 2.0, 2)
+        x, y = seen[0][rng.integers(len(seen[0]))] + rng.normal(0.0, 2.0, 2)
         size = rng.uniform(0.002, 0.008) * min(camera.size)
         blob = np.exp(-0.5 * (((across * width - x) ** 2 + (down * height - y) ** 2) / size**2) ** 2)
         image += blob * (camera.wheel_light * lit - image)

@@ -18,6 +18,7 @@ from wearsim.scanning.model import SURE, ScannedWheel, scan_photograph
 from wearsim.scanning.new_wheel import STANDARDS, NewWheel, wheel_of_case, wheel_of_chain
 from wearsim.scanning.photograph import Photograph, read_photograph
 from wearsim.scanning.sheet import depth_table, points_csv, readings_csv, scan_json, scan_text, tooth_table
+from wearsim.scanning.sheet_placement import find_sheet
 from wearsim.scanning.silhouette import Silhouette, find_silhouette
 from wearsim.study.remaining.model import DEPTH, SingleReading, remaining_life
 
@@ -28,7 +29,8 @@ if TYPE_CHECKING:
 _ALLOWED: dict[str, Allowed] = {
     "teeth": Range(least=5, most=150, whole=True, optional=True),
     "profile": (*STANDARDS, None),
-    **dict.fromkeys(("bore", "dpi", "hours"), Range(above=0.0, optional=True)),
+    "ruler": Range(least=50.0, most=200.0, optional=True),
+    **dict.fromkeys(("bore", "dpi", "thickness", "hours"), Range(above=0.0, optional=True)),
 }
 
 
@@ -125,6 +127,8 @@ def scan(
     bore: float | None = None,
     scale: tuple[float, float, float, float, float] | None = None,
     dpi: float | None = None,
+    ruler: float | None = None,
+    thickness: float | None = None,
     hours: float | None = None,
     sprocket: str | None = None,
     progress: Progress = silent,
@@ -132,7 +136,8 @@ def scan(
     """Measure the wear of a sprocket in a photograph of it, taken along its axis.
 
     The new form comes from a case, or from a chain whose sprocket has a standard form. It gives the scale
-    too, unless one of bore, scale and dpi is given.
+    too, unless one of bore, scale and dpi is given, or the sprocket lies on a marker sheet of
+    ``wearsim scan --sheet``, which is found by itself.
 
     Parameters
     ----------
@@ -152,6 +157,10 @@ def scan(
         Two points of the picture x1, y1, x2, y2 [px] in the plane of the teeth, and their distance [mm].
     dpi : float, optional
         Dots per inch of a flatbed scan.
+    ruler : float, optional
+        Length of the ruler on the print of a marker sheet [mm]; 100 by default.
+    thickness : float, optional
+        Thickness of the teeth on a marker sheet [mm]; by default the tooth width of the chain or the case.
     hours : float, optional
         Running hours of the sprocket since it was new [h]; with a case the hours that are left follow.
     sprocket : str, optional
@@ -189,21 +198,26 @@ def scan(
         raise TypeError("scan: teeth and profile belong to a chain, a case says its own")
     if sum(one is not None for one in (bore, scale, dpi)) > 1:
         raise TypeError("scan: must be given at most one of bore, scale and dpi")
-    check_ranges(
-        "scan", {"teeth": teeth, "profile": profile, "bore": bore, "dpi": dpi, "hours": hours}, _ALLOWED
-    )
+    numbers = {"bore": bore, "dpi": dpi, "ruler": ruler, "thickness": thickness, "hours": hours}
+    check_ranges("scan", {"teeth": teeth, "profile": profile, **numbers}, _ALLOWED)
     if scale is not None:
         check_series("scan", "scale", scale, Range(least=0.0), 5)
         check_ranges("scan", {"scale[4]": scale[4]}, {"scale[4]": ABOVE_0})
     one = None if case is None else _of_one(loaded(case), sprocket)
     picture = read_photograph(Path(photograph))
-    seen = find_silhouette(picture)
+    sheet = find_sheet(picture, ruler)
+    plain = picture if sheet is None else sheet.cleared(picture)
+    seen = find_silhouette(plain)
     if one is not None:
         wheel = wheel_of_case(one)
     else:
         assert chain is not None
         wheel = replace(wheel_of_chain(chain, teeth or seen.teeth, profile), per_case=teeth is not None)
-    found = scan_photograph(picture, seen, wheel, _scale(picture, seen, wheel, bore, scale, dpi))
+    wheel = replace(wheel, thickness=thickness or wheel.thickness)
+    known = _scale(plain, seen, wheel, bore, scale, dpi)
+    if known is None and sheet is not None:
+        known = sheet.scale_of(wheel)
+    found = replace(scan_photograph(plain, seen, wheel, known, sheet), photograph=picture)
     return ScanResult(_with_hours(found, one, hours, progress))
 
 

@@ -17,6 +17,8 @@ from wearsim.command.options import (
     sprocket_option,
     working,
 )
+from wearsim.command.single_file import format_of, write_content
+from wearsim.scanning.papers import PAGE_FORMATS, PAPERS
 
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
@@ -38,7 +40,15 @@ class _ScalePoints(click.ParamType[Any]):
 
 
 @click.command(short_help="Measure the wear of a sprocket in a photograph.")
-@click.argument("photo", type=click.Path(dir_okay=False, path_type=Path), metavar="PHOTO")
+@click.argument("photo", type=click.Path(dir_okay=False, path_type=Path), metavar="[PHOTO]", required=False)
+@click.option(
+    "--sheet",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Without PHOTO: new file (.pdf, .svg or .png) for a marker sheet to print and lay under a sprocket. "
+    "In a PHOTO it is found by itself, and gives scale, perspective and lens distortion.",
+)
+@click.option("--paper", type=click.Choice(tuple(PAPERS)), help="Paper of --sheet; default: a4.")
 @click.option("--case", type=CasePath(path_type=Path), metavar="CASE", help="Case of the sprocket's drive.")
 @click.option(
     "--chain",
@@ -74,6 +84,19 @@ class _ScalePoints(click.ParamType[Any]):
     "--dpi", type=_POSITIVE, metavar="DPI", callback=finite, help="Scale: dots per inch of a flatbed scan."
 )
 @click.option(
+    "--ruler-mm",
+    type=click.FloatRange(50.0, 200.0),
+    metavar="MM",
+    help="Length of the ruler on the printed marker sheet; default: 100.",
+)
+@click.option(
+    "--thickness-mm",
+    type=_POSITIVE,
+    metavar="MM",
+    callback=finite,
+    help="Thickness of the teeth that lie on the marker sheet; default: the tooth width of the chain.",
+)
+@click.option(
     "--hours",
     type=_POSITIVE,
     metavar="H",
@@ -86,7 +109,9 @@ class _ScalePoints(click.ParamType[Any]):
 @overrides
 @common_options
 def scan(
-    photo: Path,
+    photo: Path | None,
+    sheet: Path | None,
+    paper: str | None,
     case: Path | None,
     chain: str | None,
     teeth: int | None,
@@ -94,6 +119,8 @@ def scan(
     bore_mm: float | None,
     scale: tuple[float, float, float, float, float] | None,
     dpi: float | None,
+    ruler_mm: float | None,
+    thickness_mm: float | None,
     hours: float | None,
     sprocket: str | None,
     shown: Shown,
@@ -101,10 +128,21 @@ def scan(
 ) -> None:
     """Measure the wear of the sprocket in PHOTO (PNG, JPEG or TIFF), tooth by tooth.
 
+    --sheet FILE, without PHOTO, writes a marker sheet to lay under the wheel.
+
     Photograph the bare wheel along its axis, from far away, dark on a bright ground or the other way
     round, with all teeth in the picture. Its new form comes from --case, or from --chain for a standard
     sprocket. The picture does not leave this computer.
     """
+    if sheet is not None:
+        if photo is not None:
+            raise click.UsageError("--sheet writes a sheet to print: give it without PHOTO")
+        _write_sheet(sheet, paper or next(iter(PAPERS)), shown.force)
+        return
+    if photo is None:
+        raise click.UsageError("give a PHOTO to measure, or --sheet FILE for a marker sheet to print")
+    if paper is not None:
+        raise click.UsageError("--paper belongs to --sheet")
     if (case is None) == (chain is None):
         raise click.UsageError("give the new form of the sprocket: --case CASE or --chain NAME")
     if case is None and (settings or sprocket):
@@ -129,7 +167,20 @@ def scan(
             bore=bore_mm,
             scale=scale,
             dpi=dpi,
+            ruler=ruler_mm,
+            thickness=thickness_mm,
             hours=hours,
             progress=progress,
         )
     shown.save(found, photo)
+
+
+def _write_sheet(place: Path, paper: str, force: bool) -> None:
+    """Write the marker sheet."""
+    from wearsim.files import check_file
+
+    check_file(place, force)
+    form = format_of(place, None, PAGE_FORMATS, ".pdf")
+    from wearsim.scanning.marker_page import marker_page
+
+    write_content(place, marker_page(paper, form), force)

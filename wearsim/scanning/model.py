@@ -8,7 +8,8 @@ from wearsim.scanning.flank_depths import FlankDepths, flank_depths
 from wearsim.scanning.known_scales import LookUp
 from wearsim.scanning.new_wheel import NewWheel
 from wearsim.scanning.photograph import Photograph, bad_photograph
-from wearsim.scanning.placement import SEARCH, edge_bias, place_wheel
+from wearsim.scanning.placement import ANY_CAMERA, SEARCH, Placement, edge_bias, place_wheel
+from wearsim.scanning.sheet_placement import SeenSheet, uneven_warning
 from wearsim.scanning.silhouette import Silhouette
 from wearsim.study.remaining.model import RemainingLife
 
@@ -45,6 +46,7 @@ class ScannedWheel:
     seen: Silhouette
     depths: FlankDepths
     warnings: tuple[str, ...]
+    sheet: SeenSheet | None = None  # that lies under it
     hours: float | None = None  # running time of the sprocket [h]
     remaining: RemainingLife | None = None  # what is left of its life after them
 
@@ -62,40 +64,52 @@ class ScannedWheel:
     def assumptions(self) -> tuple[str, ...]:
         """What the depth rests on."""
         known = self.depths.place.known
+        seen = "the teeth are seen along their axis, and their edges are the outline of the wheel"
+        if self.sheet is not None:
+            seen = "the teeth lie flat on the marker sheet, and the lens points at the middle of the picture"
         return (
             f"the new form is {self.wheel.words}",
             "roots, tips and the less worn flank are as new where they fit the form; the tip diameter is any",
             "the scale is that of the form: the chain is the right one"
             if known is None
             else f"the scale is that of {known.words}",
-            "the teeth are seen along their axis, and their edges are the outline of the wheel",
+            seen,
             "the picture is coded as sRGB, as cameras and scanners do",
         )
 
 
 def scan_photograph(
-    photograph: Photograph, seen: Silhouette, wheel: NewWheel, known: LookUp | None = None
+    photograph: Photograph,
+    seen: Silhouette,
+    wheel: NewWheel,
+    known: LookUp | None = None,
+    sheet: SeenSheet | None = None,
 ) -> ScannedWheel:
-    """Return the wear of the sprocket in a photograph; raise CaseError where it cannot be measured."""
+    """Return the wear of the sprocket in a photograph; raise CaseError where it cannot be measured.
+
+    The dots of a marker sheet are already cleared from the photograph.
+    """
     if wheel.teeth != seen.teeth:
         raise bad_photograph(
             photograph.name,
             f"the wheel must have {wheel.teeth} teeth as given, but {seen.teeth} are counted: give the case "
             "of this wheel, or correct the number of teeth",
         )
-    depths = flank_depths(place_wheel(photograph, wheel, seen, known))
+    camera = ANY_CAMERA if sheet is None else sheet.camera_over(wheel)
+    depths = flank_depths(place_wheel(photograph, wheel, seen, known, camera))
     _check_fit(photograph, depths)
-    return ScannedWheel(photograph, seen, depths, tuple(_warnings(seen, depths)))
+    warnings = (*_warnings(depths), *_tilt_warnings(seen, sheet))
+    return ScannedWheel(photograph, seen, depths, warnings, sheet)
 
 
 def _check_fit(photograph: Photograph, depths: FlankDepths) -> None:
     """Raise where the wheel in the picture cannot be the one that is said."""
     place = depths.place
-    if place.known and abs(place.known.scale / place.form_scale - 1.0) > _SCALES_DIFFER[1]:
+    if place.known and abs(part := place.known.scale / place.form_scale - 1.0) > _SCALES_DIFFER[1]:
         raise bad_photograph(
             photograph.name,
             f"the scale of {place.known.words} and that of the teeth must agree, but differ by "
-            f"{100.0 * (place.known.scale / place.form_scale - 1.0):+.1f} %: check both, and the profile",
+            f"{100.0 * part:+.1f} %: {place.known.remedy}, and the profile",
         )
     doubtful = min(3.0 * depths.depth_error, _PLAIN * place.wheel.pitch)
     if depths.other_depth > max(_OTHER * depths.depth, 0.0) + doubtful:
@@ -114,7 +128,7 @@ def _check_fit(photograph: Photograph, depths: FlankDepths) -> None:
         )
 
 
-def _warnings(seen: Silhouette, depths: FlankDepths) -> Iterator[str]:
+def _warnings(depths: FlankDepths) -> Iterator[str]:
     place = depths.place
     misfit = depths.misfit * place.scale
     if misfit > _OFF_FORM:
@@ -137,12 +151,7 @@ def _warnings(seen: Silhouette, depths: FlankDepths) -> Iterator[str]:
             f"both flanks are worn ({depths.other_depth:.2g} mm on the other one), so that little is left to "
             "place the wheel by, or the profile is another: the sum of both depths is more certain than each"
         )
-    if seen.roundness < _TILTED:
-        angle = math.degrees(math.acos(seen.roundness))
-        yield f"the camera was tilted by about {angle:.0f} degrees, and may see sides of teeth: hold it level"
-    if place.known and abs(place.known.scale / place.form_scale - 1.0) > _SCALES_DIFFER[0]:
-        part = 100.0 * (place.known.scale / place.form_scale - 1.0)
-        yield f"the scale of {place.known.words} differs by {part:+.1f} % from that of the teeth: check both"
+    yield from _scale_warnings(place)
     if depths.seen_share < _SEEN:
         yield (
             f"only {100.0 * depths.seen_share:.0f} % of the worn flank has a clear edge: clean the wheel, "
@@ -150,3 +159,28 @@ def _warnings(seen: Silhouette, depths: FlankDepths) -> Iterator[str]:
         )
     if depths.depth > 0.8 * SEARCH * place.wheel.pitch:
         yield f"edges are looked for down to {SEARCH * place.wheel.pitch:.2g} mm: the wear may be deeper"
+
+
+def _scale_warnings(place: Placement) -> Iterator[str]:
+    if place.known is None:
+        return
+    part = place.known.scale / place.form_scale - 1.0
+    if abs(part) > max(_SCALES_DIFFER[0], SURE * place.known.error):
+        yield (
+            f"the scale of {place.known.words} differs by {100.0 * part:+.1f} % from that of the teeth: "
+            f"{place.known.remedy}"
+        )
+
+
+def _tilt_warnings(seen: Silhouette, sheet: SeenSheet | None) -> Iterator[str]:
+    tilt = math.acos(min(1.0, seen.roundness)) if sheet is None else sheet.camera.tilt
+    if math.cos(tilt) < _TILTED:
+        yield (
+            f"the camera was tilted by about {math.degrees(tilt):.0f} degrees, and may see sides of teeth: "
+            "hold it level"
+        )
+    if sheet is not None:
+        if sheet.mirrored:
+            yield "the picture is a mirror image, as the marker sheet shows: flanks face as in the picture"
+        if uneven := uneven_warning(sheet):
+            yield uneven

@@ -31,6 +31,7 @@ class NewWheel:
     pitch: float  # of the chain [mm]
     gap: Vector  # points of a gap about +y, from its right tip to its left one [mm], shape (n, 2)
     words: str  # which form it is
+    thickness: float  # of the teeth [mm]
     roller_diameter: float | None = None  # of the chain [mm]; None where no chain is known
     per_case: bool = False  # whether the number of teeth was said, not counted
 
@@ -114,7 +115,7 @@ def wheel_of_case(case: "Case") -> NewWheel:
     pitch = 2.0 * shape.pitch_radius * math.sin(math.pi / len(shape.new))
     words, chain = f"the sprocket of {case.title}", getattr(case.drive, "chain", None)
     roller = None if chain is None else float(chain.roller_diameter)
-    return NewWheel(len(shape.new), pitch, points[apart], words, roller, per_case=True)
+    return NewWheel(len(shape.new), pitch, points[apart], words, shape.width, roller, per_case=True)
 
 
 def wheel_of_chain(designation: str, teeth: int, profile: str | None) -> NewWheel:
@@ -132,7 +133,8 @@ def wheel_of_chain(designation: str, teeth: int, profile: str | None) -> NewWhee
         raise CaseError([Fault(str(error), "", f"--profile {form}")]) from None
     gap = np.column_stack([outline.x, outline.y])
     words = f"{form} for {chain.designation}, {teeth} teeth"
-    return NewWheel(teeth, chain.pitch, gap, words, chain.roller_diameter)
+    thickness = (chain.strands - 1) * chain.transverse_pitch + chain.face_width / chain.strands
+    return NewWheel(teeth, chain.pitch, gap, words, thickness, chain.roller_diameter)
 
 
 def around(points: Vector, teeth: int) -> Vector:

@@ -1,5 +1,6 @@
 """A photograph as light: read, turned upright, and on a scale that adds."""
 
+import math
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageOps, UnidentifiedImageError
+from PIL import ExifTags, Image, ImageOps, UnidentifiedImageError
 
 from wearsim.errors import CaseError, Fault
 
@@ -30,6 +31,7 @@ class Photograph:
 
     name: str  # of its file
     light: Light  # from 0 to 1, linear in the light that came in, shape (height, width)
+    focal_length: float | None = None  # as the camera noted it [px]
 
     @property
     def width(self) -> int:
@@ -48,8 +50,9 @@ def read_photograph(path: Path) -> Photograph:
         _check_size(picture, path)
         _check_kind(picture, path)
         picture.load()
+        focal_length = _focal_length(picture)
         grey = _grey(ImageOps.exif_transpose(picture))
-    return Photograph(path.name, _linear(grey))
+    return Photograph(path.name, _linear(grey), focal_length)
 
 
 def bad_photograph(name: str, message: str) -> CaseError:
@@ -120,6 +123,14 @@ def _grey(picture: Image.Image) -> Codes:
         white.paste(picture.convert("L"), mask=picture.getchannel("A"))
         picture = white
     return np.array(picture.convert("L"), dtype=np.uint8)
+
+
+def _focal_length(picture: Image.Image) -> float | None:
+    """Return the focal length by that noted for a picture of 24 x 36 mm [px]; None where none is noted."""
+    noted = picture.getexif().get_ifd(ExifTags.IFD.Exif).get(ExifTags.Base.FocalLengthIn35mmFilm)
+    if not isinstance(noted, int) or noted <= 0:
+        return None
+    return noted * math.hypot(*picture.size) / math.hypot(24.0, 36.0)
 
 
 def _linear(grey: Codes) -> Light:

@@ -17,8 +17,8 @@ from wearsim.scanning.projection import NUMBERS, Projection, SeenStations, seen_
 from wearsim.scanning.silhouette import Silhouette
 from wearsim.scanning.subpixel_edges import Blur, EdgeImage
 
-_TIP, _BIAS = NUMBERS, NUMBERS + 1
-"""Places of the tip circle and of the bias of all edges among the unknowns."""
+_TIP, _BIAS, _SIDES = NUMBERS, NUMBERS + 1, NUMBERS + 2
+"""Places of the tip circle, of the bias of all edges and of the sides of teeth among the unknowns."""
 
 SEARCH = 0.15
 """Distance over the pitch within which an edge is looked for."""
@@ -44,6 +44,8 @@ _EDGE_BIAS = 0.03
 
 _MISFIT_BIAS = 5.0
 """How much farther bright rims and shadows move them, over the blur and what they change of the light."""
+_SIDES_ERROR = 0.25
+"""Standard deviation of the thickness at the edges over that of the teeth: edges are chamfered."""
 
 _ALIKE = 0.02
 """Standard deviation of what moves a stretch of the edge alike in all gaps: light, blur, pixels [px]."""
@@ -57,6 +59,9 @@ _ONE_SIDE = 0.4
 _LEAST_PITCH = 24.0
 """Pixels of a pitch from which teeth are measured; over the blur at least as many."""
 
+_STEPS, _AGAIN = 8, 5
+"""Steps once the loaded side is known, and again once the scale is."""
+
 _UNWORN = 2.5
 """Standard errors by which the mean of all gaps may lack steel where it does not wear."""
 
@@ -69,6 +74,27 @@ class KnownScale(NamedTuple):
     scale: float  # [px/mm]
     error: float  # standard deviation, relative
     words: str  # where it is from
+    remedy: str = "check both"  # where it differs from that of the teeth
+
+
+@dataclass(frozen=True, eq=False)
+class KnownCamera:
+    """What is known of a camera and of the thickness of teeth beforehand."""
+
+    distortion: float = 0.0
+    distortion_error: float = _DISTORTION  # standard deviation
+    second_distortion: float = 0.0
+    half_thickness: float = 0.0  # of the teeth [mm], 0 where they are taken for flat
+    # returns where the camera is over the middle plane of a wheel [mm], shape (3,)
+    place: Callable[[Projection], Vector] = lambda projection: np.array([0.0, 0.0, 1.0])
+
+    def sides(self, projection: Projection, points: Vector, normals: Vector) -> Vector:
+        """Return how far outside of their middle plane edges are seen [mm]: by the face nearer to there."""
+        *below, height = self.place(projection)
+        return np.asarray(self.half_thickness * np.abs(((points - below) * normals).sum(axis=-1)) / height)
+
+
+ANY_CAMERA = KnownCamera()
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +105,8 @@ class Edges:
     off: Vector  # how far outside of the new form the edge is [px], nan without one, shape (teeth, stations)
     tips: SeenStations  # of shape (teeth, tip stations)
     tips_off: Vector  # the same of the tips
+    sides: Vector  # how far outside edges are seen by the thickness of the teeth [px], like `off`
+    tips_sides: Vector
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,9 +154,9 @@ class Placement:
 
     @property
     def depth_by_unknowns(self) -> Vector:
-        """Mean over all gaps of the derivatives of the depth by the unknowns, shape (stations, 11)."""
+        """Mean over all gaps of the derivatives of the depth by the unknowns, shape (stations, 12)."""
         points = around(self.stations.points, self.wheel.teeth)
-        rows = _rows(self.projection, points, self.edges.gaps, tip=False)
+        rows = _rows(self.projection, points, self.edges.gaps, self.edges.sides, tip=False)
         return np.asarray((rows / self.edges.gaps.stretch[..., None]).mean(axis=0))
 
 
@@ -137,21 +165,21 @@ def place_wheel(
     wheel: NewWheel,
     seen: Silhouette,
     known: Callable[[Projection], KnownScale] | None = None,
+    camera: KnownCamera = ANY_CAMERA,
 ) -> Placement:
     """Return the wheel placed in its photograph; of an asymmetric one the side that fits better.
 
     What the scale is known from is looked up in the wheel's plane, where the form alone has placed it.
     """
     image = edge_image(photograph, seen)
-    start = first_projection(photograph, wheel, seen)
+    start = first_projection(photograph, wheel, seen, camera)
     ways = [wheel] if wheel.symmetric else [wheel, wheel.mirrored]
-    found = [_Fit(photograph.name, image, way, start, None).placed() for way in ways]
-    best = min(found, key=lambda one: one.noise)
+    found = [_Fit(photograph.name, image, way, start, camera).placed() for way in ways]
+    best, fit = min(found, key=lambda pair: pair[0].noise)
     if known is None:
         return best
-    scale = known(best.projection)
-    again = _Fit(photograph.name, image, best.wheel, best.projection, scale).placed()
-    return replace(again, known=scale, form_scale=best.scale)
+    fit.known = known(best.projection)
+    return replace(fit.settled(_AGAIN), known=fit.known, form_scale=best.scale)
 
 
 def smoothing_window(stations: int) -> int:
@@ -169,7 +197,9 @@ def edge_image(photograph: Photograph, seen: Silhouette) -> EdgeImage:
     return EdgeImage(photograph.light if seen.light_ground else -photograph.light)
 
 
-def first_projection(photograph: Photograph, wheel: NewWheel, seen: Silhouette) -> Projection:
+def first_projection(
+    photograph: Photograph, wheel: NewWheel, seen: Silhouette, camera: KnownCamera
+) -> Projection:
     """Return the projection that the silhouette tells."""
     upright = np.array([[1.0, 0.0], [0.0, -1.0]])
     turn = seen.gap_angle - 0.5 * math.pi
@@ -181,41 +211,46 @@ def first_projection(photograph: Photograph, wheel: NewWheel, seen: Silhouette) 
         matrix=matrix,
         centre=seen.centre,
         slant=np.zeros(2),
-        distortion=0.0,
+        distortion=camera.distortion,
         middle=0.5 * (size - 1.0),
         reach=0.5 * float(size.min()),
         radius=wheel.tip_radius,
+        second_distortion=camera.second_distortion,
     )
 
 
-def _rows(projection: Projection, points: Vector, seen: SeenStations, tip: bool) -> Vector:
-    """Return the derivatives of edges outwards [px] by the unknowns, shape (..., 11)."""
+def _rows(projection: Projection, points: Vector, seen: SeenStations, sides: Vector, tip: bool) -> Vector:
+    """Return the derivatives of edges outwards [px] by the unknowns, shape (..., 12)."""
     by_numbers = np.einsum("...i,...ij->...j", seen.normals, projection.by_numbers(points))
     by_tip = seen.stretch if tip else np.zeros_like(seen.stretch)
-    return np.concatenate([by_numbers, by_tip[..., None], np.ones_like(by_tip)[..., None]], axis=-1)
+    others = np.stack([by_tip, np.ones_like(by_tip), sides], axis=-1)
+    return np.concatenate([by_numbers, others], axis=-1)
 
 
 class _Fit:
     """Gauss-Newton steps on all edges, found anew after each of them."""
 
     def __init__(
-        self, name: str, image: EdgeImage, wheel: NewWheel, start: Projection, known: KnownScale | None
+        self, name: str, image: EdgeImage, wheel: NewWheel, start: Projection, camera: KnownCamera
     ) -> None:
-        self.name, self.image, self.wheel, self.projection, self.known = name, image, wheel, start, known
+        self.name, self.image, self.wheel, self.projection = name, image, wheel, start
+        self.known: KnownScale | None = None
+        self.camera = camera
         pixels = wheel.pitch * start.scale
         self.stations = wheel.stations(int(min(_MOST_STATIONS, max(60.0, 2.0 * pixels))))
         self.points = around(self.stations.points, wheel.teeth)
         self.normals = around(self.stations.normals, wheel.teeth)
         self.tip_points, self.tip_normals = _tips(wheel, int(max(3.0, 0.1 * pixels)))
         self.tip = self.bias = 0.0
+        self.sides = 1.0
         self.blur, self.edge_misfit = 1.0, 0.0
         self.left_worn = True
         side = self.stations.from_middle
         self.inner = np.abs(side) < 1.0 - _CORNER
         self.expected = np.zeros(side.size)
 
-    def placed(self) -> Placement:
-        """Return the wheel where it fits best."""
+    def placed(self) -> "tuple[Placement, _Fit]":
+        """Return the wheel where it fits best, and the fit that goes on from there."""
         unworn = self.inner.copy()
         for _ in range(4):
             edges = self._edges(refined=False)
@@ -225,18 +260,22 @@ class _Fit:
         self._check_resolution()
         for _ in range(2):
             self._step(self._edges(), unworn)
-        edges = self._edges()
-        left = self._lacks_more_on_left(edges)
-        found = copy(self)._worn_on(left, edges)
-        if found.lacks_on_one_side:
+        left = self._lacks_more_on_left(self._edges())
+        found = self._worn_on(left)
+        if found[0].lacks_on_one_side:
             return found
-        other = copy(self)._worn_on(not left, edges)
-        return min(found, other, key=lambda one: one.away_share)
+        return min(found, self._worn_on(not left), key=lambda pair: pair[0].away_share)
 
-    def _worn_on(self, left: bool, edges: Edges) -> Placement:
+    def _worn_on(self, left: bool) -> "tuple[Placement, _Fit]":
         """Return the wheel where it fits best by all but the left side of its gaps, or the right one."""
-        self.left_worn = left
-        for count in range(8):
+        fit = copy(self)
+        fit.left_worn = left
+        return fit.settled(_STEPS), fit
+
+    def settled(self, steps: int) -> Placement:
+        """Return the wheel where it fits best from where it is."""
+        edges = self._edges()
+        for count in range(steps):
             unworn = self._unworn(edges, first=count < 2)
             solved = self._step(edges, unworn)
             edges = self._edges()
@@ -257,17 +296,19 @@ class _Fit:
         )
 
     def _edges(self, refined: bool = True) -> Edges:
+        tip_points = self.tip_points * (1.0 + self.tip / self.wheel.tip_radius)
         gaps = seen_stations(self.projection, self.points, self.normals)
-        tips = seen_stations(
-            self.projection, self.tip_points * (1.0 + self.tip / self.wheel.tip_radius), self.tip_normals
-        )
-        off = self._off(gaps, np.broadcast_to(self.expected, gaps.stretch.shape), refined)
+        tips = seen_stations(self.projection, tip_points, self.tip_normals)
+        sides = gaps.stretch * self.camera.sides(self.projection, self.points, self.normals)
+        tips_sides = tips.stretch * self.camera.sides(self.projection, tip_points, self.tip_normals)
+        off = self._off(gaps, self.expected + self.sides * sides, refined) - self.sides * sides
         with np.errstate(all="ignore"):
             curvature = self._worn_curvature(np.nan_to_num(_median(off)) / gaps.stretch.mean(axis=0))
             # A blurred edge that is bent lies nearer to the middle of its curvature.
             off = off - 0.5 * self.blur**2 * curvature / gaps.stretch
             self.expected = np.nan_to_num(_median(off))
-        return Edges(gaps, off, tips, self._off(tips, np.zeros_like(tips.stretch), refined))
+        tips_off = self._off(tips, self.sides * tips_sides, refined) - self.sides * tips_sides
+        return Edges(gaps, off, tips, tips_off, sides, tips_sides)
 
     def _worn_curvature(self, outside: Vector) -> Vector:
         """Curvature of the mean edge, which lies so far outside of the new form [1/mm]."""
@@ -321,26 +362,35 @@ class _Fit:
 
     def _step(self, edges: Edges, unworn: Flags) -> "_Solved":
         """Move the wheel to where the edges are."""
-        gap_rows = _rows(self.projection, self.points, edges.gaps, tip=False)[:, unworn]
-        tip_rows = _rows(self.projection, self.tip_points, edges.tips, tip=True)
-        rows = np.concatenate([part.reshape(-1, _BIAS + 1) for part in (gap_rows, tip_rows)])
+        gap_rows = _rows(self.projection, self.points, edges.gaps, edges.sides, tip=False)[:, unworn]
+        tip_rows = _rows(self.projection, self.tip_points, edges.tips, edges.tips_sides, tip=True)
+        rows = np.concatenate([part.reshape(-1, _SIDES + 1) for part in (gap_rows, tip_rows)])
         off = np.concatenate([edges.off[:, unworn].ravel(), edges.tips_off.ravel()])
         solved = _solve(rows, off - self.bias, self._prior(), int(unworn.sum()), self.wheel.teeth)
         self.projection = self.projection.moved(solved.change[:NUMBERS])
         self.tip += float(solved.change[_TIP])
         self.bias += float(solved.change[_BIAS])
+        self.sides += float(solved.change[_SIDES])
         return solved
 
     def _prior(self) -> "_Prior":
         """Return what is known of the unknowns beforehand: how far they are off that, and how surely."""
-        unit = np.eye(_BIAS + 1)
-        rows = [unit[NUMBERS - 1] / _DISTORTION, unit[_TIP] / (_TIP_TOLERANCE * self.wheel.pitch)]
-        off = [-self.projection.distortion / _DISTORTION, -self.tip / (_TIP_TOLERANCE * self.wheel.pitch)]
         bias = edge_bias(self.blur, self.edge_misfit)
-        rows.append(unit[_BIAS] / bias)
-        off.append(-self.bias / bias)
+        unit = np.eye(_SIDES + 1)
+        rows = [
+            unit[NUMBERS - 1] / self.camera.distortion_error,
+            unit[_TIP] / (_TIP_TOLERANCE * self.wheel.pitch),
+            unit[_BIAS] / bias,
+            unit[_SIDES] / _SIDES_ERROR,
+        ]
+        off = [
+            (self.camera.distortion - self.projection.distortion) / self.camera.distortion_error,
+            -self.tip / (_TIP_TOLERANCE * self.wheel.pitch),
+            -self.bias / bias,
+            (1.0 - self.sides) / _SIDES_ERROR,
+        ]
         if self.known is not None:
-            by_numbers = np.concatenate([self.projection.scale_by_numbers, [0.0, 0.0]])
+            by_numbers = np.concatenate([self.projection.scale_by_numbers, np.zeros(3)])
             rows.append(by_numbers / self.known.error)
             off.append(math.log(self.known.scale / self.projection.scale) / self.known.error)
         return _Prior(np.array(rows), np.array(off))

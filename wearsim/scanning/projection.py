@@ -29,13 +29,15 @@ class Projection:
     middle: Vector  # of the picture [px], shape (2,)
     reach: float  # [px]
     radius: float  # unit of the plane [mm]
+    second_distortion: float = 0.0  # of the fourth power, known from elsewhere
 
     def seen(self, points: Vector) -> Vector:
         """Return points of the plane [mm] in the picture [px], shape (..., 2)."""
         flat = points / self.radius
         straight = (flat @ self.matrix.T + self.centre) / (1.0 + flat @ self.slant)[..., None]
         off = straight - self.middle
-        bent = 1.0 + self.distortion * (off**2).sum(axis=-1) / self.reach**2
+        square = (off**2).sum(axis=-1) / self.reach**2
+        bent = 1.0 + self.distortion * square + self.second_distortion * square**2
         return np.asarray(self.middle + off * bent[..., None])
 
     def behind(self, seen: Vector) -> Vector:
@@ -115,3 +117,35 @@ def seen_stations(projection: Projection, points: Vector, normals: Vector) -> Se
     facing = np.einsum("...ji,...j->...i", inverse, normals)
     length = np.hypot(facing[..., 0], facing[..., 1])
     return SeenStations(projection.seen(points), facing / length[..., None], 1.0 / length)
+
+
+def homography(flat: Vector, points: Vector) -> Vector:
+    """Return the matrix that takes points of a plane to points of a picture, shape (3, 3).
+
+    Examples
+    --------
+    >>> square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    >>> homography(square, 2.0 * square + 1.0).round(6)
+    array([[2., 0., 1.],
+           [0., 2., 1.],
+           [0., 0., 1.]])
+    """
+    into, out = _normal(flat), _normal(points)
+    ones = np.ones((len(flat), 1))
+    here = np.hstack([flat, ones]) @ into.T
+    there = np.hstack([points, ones]) @ out.T
+    zero = np.zeros_like(here)
+    rows = np.concatenate(
+        [np.hstack([here, zero, -there[:, :1] * here]), np.hstack([zero, here, -there[:, 1:2] * here])]
+    )
+    found = np.linalg.inv(out) @ np.linalg.svd(rows)[2][-1].reshape(3, 3) @ into
+    return np.asarray(found / found[2, 2])
+
+
+def _normal(points: Vector) -> Vector:
+    """Return the matrix that moves points about 0, at a mean distance of 1."""
+    middle = points.mean(axis=0)
+    size = float(np.hypot(*(points - middle).T).mean())
+    return np.array(
+        [[1.0 / size, 0.0, -middle[0] / size], [0.0, 1.0 / size, -middle[1] / size], [0.0, 0.0, 1.0]]
+    )

@@ -14,6 +14,7 @@ from wearsim.result import life_keys
 from wearsim.result.lives import hours
 from wearsim.scanning.model import SURE, ScannedWheel
 from wearsim.scanning.over_pins import OverPins, over_pins
+from wearsim.scanning.sheet_placement import SeenSheet
 from wearsim.study.remaining.model import RemainingLife
 
 
@@ -131,13 +132,23 @@ def _findings(found: ScannedWheel) -> Iterator[Finding]:
     yield Finding(
         "Picture",
         f"{found.photograph.width} x {found.photograph.height} pixels, {wheel.pitch * place.scale:.0f} to a "
-        f"pitch; blur {place.blur:.1f}, scatter of the edge {place.noise:.2f} pixels",
+        f"pitch; blur {place.blur:.1f}, scatter of the edge {place.noise:.2f} pixels"
+        + ("" if found.sheet is None else f"; {_seen_by(found.sheet)}"),
     )
     if found.remaining is not None:
         left = found.remaining
         band = f"{hours(left.remaining_low)} to {hours(left.remaining_high)}"
         yield Finding("Remaining", f"{hours(left.remaining)} after {grouped(left.reading.hours)} h")
         yield Finding("Band", f"{band} by two standard errors of the depth")
+
+
+def _seen_by(sheet: SeenSheet) -> str:
+    seen = sheet.camera.projection
+    return (
+        f"camera tilted by {math.degrees(sheet.camera.tilt):.1f} +- "
+        f"{math.degrees(sheet.camera.tilt_error):.1f} degrees, lens distortion "
+        f"{100.0 * (seen.distortion + seen.second_distortion):+.2f} %, dots within {sheet.scatter:.3f} mm"
+    )
 
 
 def scan_json(found: ScannedWheel) -> dict[str, Any]:
@@ -161,6 +172,7 @@ def scan_json(found: ScannedWheel) -> dict[str, Any]:
         "scale_by": "form of the teeth" if place.known is None else place.known.words,
         "blur_px": place.blur,
         "edge_scatter_px": place.noise,
+        **({} if found.sheet is None else _sheet_json(found.sheet)),
         "hours": found.hours,
         **({} if left is None else _remaining_json(left)),
         "assumptions": list(found.assumptions),
@@ -176,6 +188,20 @@ def _over_pins_json(pins: OverPins | None) -> dict[str, Any]:
         "size_over_pins_mm": pins.size,
         "over_pins_mm": pins.decrease,
         "over_pins_se_mm": pins.error,
+    }
+
+
+def _sheet_json(sheet: SeenSheet) -> dict[str, Any]:
+    seen = sheet.camera.projection
+    return {
+        "sheet_dots": len(sheet.markers.dots),
+        "sheet_scatter_mm": sheet.scatter,
+        "camera_tilt_degrees": math.degrees(sheet.camera.tilt),
+        "camera_tilt_se_degrees": math.degrees(sheet.camera.tilt_error),
+        "camera_height_mm": sheet.height,
+        "camera_height_se_mm": sheet.height * sheet.camera.height_error,
+        "lens_distortion": seen.distortion + seen.second_distortion,
+        "mirrored": sheet.mirrored,
     }
 
 

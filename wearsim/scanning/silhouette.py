@@ -63,7 +63,7 @@ class _Shape(NamedTuple):
 def find_silhouette(photograph: Photograph) -> Silhouette:
     """Return the wheel in a photograph; raise CaseError where there is none, or more than one."""
     step = max(1, math.ceil(max(photograph.light.shape) / _COARSE))
-    shape = _find_shape(_reduced(photograph.light, step), photograph.name)
+    shape = _find_shape(reduced(photograph.light, step), photograph.name)
     down, across = np.nonzero(shape.filled)
     centre = np.array([across.mean(), down.mean()])
     second = np.cov(np.vstack([across, down]))
@@ -89,7 +89,7 @@ def find_silhouette(photograph: Photograph) -> Silhouette:
     )
 
 
-def _reduced(light: Light, step: int) -> Light:
+def reduced(light: Light, step: int) -> Light:
     """Means of squares of pixels."""
     height, width = (step * (side // step) for side in light.shape)
     squares = light[:height, :width].reshape(height // step, step, width // step, step)
