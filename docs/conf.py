@@ -25,6 +25,7 @@ extensions = [
     "gallery",
     "key_tables",
     "root_pages",
+    "shared_readings",
     "thumbnails",
 ]
 exclude_patterns = ["_build", "validation_head.md", "measured_head.md", "laws_head.md", "practice_head.md"]

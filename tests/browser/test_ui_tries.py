@@ -251,7 +251,7 @@ def test_axe_finds_nothing(watched, serve, text, width, scheme):
     watched.set_viewport_size({"width": width, "height": 900})
     watched.emulate_media(color_scheme=scheme)
     page = opened(watched, serve(None, text) if text == "packaging-conveyor" else serve(text))
-    for name in ("Examples", "New", "Save as", "Export wheel", "Pin"):
+    for name in ("Examples", "New", "Save as", "Export wheel", "Scan a photo", "Pin"):
         click(page, name)
         if name != "Pin":
             page.locator(".ws-dialog").wait_for()

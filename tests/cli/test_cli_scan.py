@@ -309,3 +309,32 @@ def test_kinds_of_pictures(photo, tmp_path, mode):
     else:
         upright.convert(mode).save(path)
     assert wearsim.scan(path, chain="08B").depth == pytest.approx(0.3, abs=0.05)
+
+
+COARSE = {"sprocket.nodes": 101, "mechanism.phases": 1, "run.life_tolerance": 0.1}
+
+
+def test_a_shared_reading_gives_the_same_hours(cli, photo, tmp_path):
+    """Written by a scan, read by `remaining`."""
+    settings = [word for key, value in COARSE.items() for word in ("--set", f"{key}={value}")]
+    out = tmp_path / "out"
+    done = cli("scan", photo, "--case", "08b-19t-wrap", *settings, "--hours", 4200, "--json", "--out", out)
+    assert done.code == 0, done.err
+    scanned = json.loads(done.out)
+    done = cli("remaining", "08b-19t-wrap", *settings, "--reading", out / "reading.toml", "--json")
+    assert done.code == 0, done.err
+    read = json.loads(done.out)
+    for key in ("remaining_hours", "remaining_hours_low", "remaining_hours_high"):
+        assert read[key] == pytest.approx(scanned[key], rel=1e-4)
+    case = wearsim.load_case("08b-19t-wrap").with_(COARSE)
+    assert wearsim.remaining(case, reading=out / "reading.toml").remaining.hours == read["remaining_hours"]
+    other = cli("remaining", "16b-20t-oiled", "--reading", out / "reading.toml")
+    assert other.code == 2
+    assert "conditions.teeth: must be that of the case, 20, but is 19: give its case" in other.err
+    twice = cli("remaining", "08b-19t-wrap", "--reading", out / "reading.toml", "--hours", 4200)
+    assert twice.code == 2
+
+
+def test_a_shared_reading_needs_a_case(photo):
+    with pytest.raises(wearsim.CaseError, match=r"wheel\.png: must have a case, running hours and a depth"):
+        wearsim.scan(photo, chain="08B", hours=4200).shared_reading()

@@ -139,3 +139,19 @@ def test_answers_forbid_frames_and_what_is_not_their_own(headers):
 def test_a_refusal_says_why():
     body = messages(host="evil.example")[1]["body"].decode()
     assert body == "wearsim ui: the request must be to the loopback address that it printed\n"
+
+
+@pytest.mark.parametrize(
+    ("headers", "status"),
+    [
+        ({}, 200),
+        ({"content_length": "64000000"}, 200),
+        ({"content_length": "64000001"}, 413),
+        ({"content_length": "-1"}, 413),
+        ({"content_length": ""}, 413),
+        ({"transfer_encoding": "chunked"}, 411),
+        ({"content_length": "64000001", "origin": "null"}, 403),
+    ],
+)
+def test_large_requests_are_refused(headers, status):
+    assert messages(**headers)[0]["status"] == status

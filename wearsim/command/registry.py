@@ -19,6 +19,7 @@ CALCULATIONS = tuple(_HANDBOOK)
 _PLACES = {
     "gear": ("wearsim.mechanisms.gear_pair.keys", "GearTables"),
     "sweep": ("wearsim.study.sweep.keys", "SweepTables"),
+    "reading": ("wearsim.readings.shared_reading", "SharedReading"),
     **{
         command: (f"wearsim.handbook.{command.replace('-', '_')}.keys", name)
         for command, name in _HANDBOOK.items()

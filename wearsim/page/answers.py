@@ -101,8 +101,10 @@ class Answered:
     sheet: Callable[[], str]  # makes the page of ``wearsim report``
 
 
-def error_faults(error: WearsimError) -> tuple[Fault, ...]:
+def error_faults(error: Exception) -> tuple[Fault, ...]:
     """Return what is wrong, each as the command line prints it."""
+    if not isinstance(error, WearsimError):
+        return (Fault(f"this is a bug in wearsim: {type(error).__name__}: {error}"),)
     return error.faults if isinstance(error, CaseError) else (Fault(str(error)),)
 
 

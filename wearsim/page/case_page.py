@@ -3,10 +3,11 @@
 import asyncio
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nicegui import background_tasks, ui
 
+from wearsim.drive.load_case import load_case
 from wearsim.errors import Fault, WearsimError
 from wearsim.input.document import CaseText
 from wearsim.page.answer_panel import AnswerFinder
@@ -23,8 +24,12 @@ from wearsim.page.file_saver import FileSaver
 from wearsim.page.form_panel import FormPanel
 from wearsim.page.header import Action, Header
 from wearsim.page.text_elements import FaultList
+from wearsim.page.threads import in_thread
 from wearsim.page.toml_source import parsed_tables, shown_values, with_table, with_value, without_table
 from wearsim.page.what_if import WhatIf
+
+if TYPE_CHECKING:
+    from wearsim.page.scan_dialog import ScanDialog
 
 _ARRIVED = """
 const bar = document.querySelector(".ws-header");
@@ -36,6 +41,13 @@ const tell = () => emitEvent("scheme", dark.matches);
 dark.addEventListener("change", tell);
 tell();
 """
+
+
+def _scan_dialog() -> "type[ScanDialog]":
+    """Return the dialog of a photograph; its imports take long, and few pages need it."""
+    from wearsim.page.scan_dialog import ScanDialog
+
+    return ScanDialog
 
 
 class CasePage:
@@ -73,6 +85,7 @@ class CasePage:
             Action("Save as", "save_as", keeper.save_as),
             Action("Sheet", "description", keeper.sheet),
             Action("Export wheel", "download", keeper.export),
+            Action("Scan a photo", "photo_camera", self._scan),
         )
         self._header = Header(actions)
         with ui.element("div").classes("ws-main"):
@@ -148,6 +161,16 @@ class CasePage:
         """Keep the answer to the present input to compare later ones with."""
         self._comparison.pin()
 
+    async def _scan(self) -> None:
+        """Measure the wear of a sprocket of the present input in a photograph."""
+        source = CaseText(self._keeper.file.path, self._text)
+        try:
+            make, case = await in_thread(lambda: (_scan_dialog(), load_case(source)))
+        except WearsimError as error:
+            ui.notify(str(error), type="negative", multi_line=True)
+            return
+        await make(case, lambda: self._gone or self._stopping.is_set()).run()
+
     def _show_input(self, typing: str) -> None:
         data = parsed_tables(self._text)
         self._what_if.show(data)
@@ -194,11 +217,8 @@ class CasePage:
                 if self._stopping.is_set():
                     return
                 continue
-            except WearsimError as error:
-                self._fail(version, error_faults(error))
             except Exception as error:
-                text = f"this is a bug in wearsim: {type(error).__name__}: {error}"
-                self._fail(version, (Fault(text),))
+                self._fail(version, error_faults(error))
             self._answered = version
 
     async def _find(self, version: int) -> None:

@@ -13,6 +13,9 @@ Receive = Callable[[], Awaitable[Message]]
 Send = Callable[[Message], Awaitable[None]]
 Application = Callable[[Scope, Receive, Send], Awaitable[None]]
 
+MOST_BYTES = 64_000_000
+"""Size of the largest request, which is the upload of a photograph."""
+
 _NAMES = ("127.0.0.1", "localhost", "[::1]")
 _OWN_SITES = ("same-origin", "none")
 
@@ -56,11 +59,13 @@ class Guard:
         self._headers = [(b"content-security-policy", _policy(names).encode()), *_HEADERS]
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass a request on, or refuse it with status 403."""
+        """Pass a request on, or refuse it: with status 403, or 411 or 413 for its size."""
         if scope["type"] == "lifespan":
             await self.app(scope, receive, send)
             return
-        refusal = self._refusal(scope)
+        refusal, status = self._refusal(scope), 403
+        if not refusal and scope["type"] == "http":
+            refusal, status = _size_refusal(_headers(scope))
         if not refusal:
             await self.app(scope, receive, self._with_headers(send))
         elif scope["type"] == "websocket":
@@ -69,7 +74,7 @@ class Guard:
             await send({"type": "websocket.close", "code": 1008, "reason": refusal})
         else:
             headers = [(b"content-type", b"text/plain; charset=utf-8"), *self._headers]
-            await send({"type": "http.response.start", "status": 403, "headers": headers})
+            await send({"type": "http.response.start", "status": status, "headers": headers})
             await send({"type": "http.response.body", "body": f"{refusal}\n".encode()})
 
     def _refusal(self, scope: Scope) -> str:
@@ -107,6 +112,16 @@ def _headers(scope: Scope) -> Mapping[str, list[str]]:
     for name, value in scope["headers"]:
         found.setdefault(name.decode("latin-1").lower(), []).append(value.decode("latin-1"))
     return found
+
+
+def _size_refusal(given: Mapping[str, list[str]]) -> tuple[str, int]:
+    """Why a request is not answered for its size, with the status; empty where it is answered."""
+    if "transfer-encoding" in given:
+        return "wearsim ui: the request must say its length in Content-Length", 411
+    length = given.get("content-length", ["0"])[0]
+    if not length.isdecimal() or int(length) > MOST_BYTES:
+        return f"wearsim ui: the request must have at most {MOST_BYTES // 1_000_000} MB", 413
+    return "", 0
 
 
 def _policy(names: list[str]) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 import uvicorn
 from fastapi import FastAPI
 from nicegui import app, ui
+from starlette.formparsers import MultiPartParser
 
 from wearsim.drive.load_case import load_single
 from wearsim.drive.part_life import simulate
@@ -16,7 +17,7 @@ from wearsim.errors import WearsimError
 from wearsim.input.document import CaseText
 from wearsim.page.case_file import CaseFile
 from wearsim.page.case_page import CasePage
-from wearsim.page.request_guard import Guard
+from wearsim.page.request_guard import MOST_BYTES, Guard
 
 _RECONNECT = 3600.0
 """Seconds that the input of a page is kept after its connection was lost, as when a lid is closed."""
@@ -27,6 +28,7 @@ def serve(
 ) -> None:
     """Serve pages until the program is interrupted."""
     stopping = threading.Event()
+    MultiPartParser.spool_max_size = MOST_BYTES  # a photograph stays in memory
     ui.page("/", title="wearsim", dark=None, language="en-GB")(partial(_page, opened, stopping))
     app.on_shutdown(stopping.set)
     host = FastAPI(openapi_url=None, docs_url=None, redoc_url=None)

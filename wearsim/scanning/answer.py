@@ -10,6 +10,7 @@ from wearsim.case.model import Case
 from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import ABOVE_0, Allowed, CaseError, Fault, Range, check_ranges, check_series
+from wearsim.readings.shared_reading import reading_toml
 from wearsim.report.answer_table import csv_of
 from wearsim.report.public_answer import DrawnAnswer
 from wearsim.runner.in_threads import Progress, silent
@@ -42,11 +43,14 @@ class ScanResult(DrawnAnswer):
     ----------
     found : ScannedWheel
         Photograph, placed wheel and depths as objects.
+    case : Case or None
+        That of the sprocket, where one is given.
     """
 
     _tables = ("teeth", "gap")
 
     found: ScannedWheel
+    case: Case | None = None
 
     @property
     def title(self) -> str:
@@ -104,10 +108,33 @@ class ScanResult(DrawnAnswer):
 
         return {"overlay": overlay_figure(self.found)}
 
+    def shared_reading(self) -> str:
+        """Return the depth with the conditions of the case as the file in which it can be shared.
+
+        Returns
+        -------
+        str
+            Content of ``reading.toml``.
+
+        Raises
+        ------
+        CaseError
+            Case or hours were not given, or the depth is within its error.
+        """
+        found = self.found
+        if self.case is None or found.hours is None or not found.is_worn:
+            text = "must have a case, running hours and a depth above its error to be shared: give them"
+            raise CaseError([Fault(text, "", found.photograph.name)])
+        depths = found.depths
+        teeth = depths.of_teeth.tolist()
+        return reading_toml(self.case, found.hours, depths.depth, depths.depth_error, teeth, depths.worn_gap)
+
     def _files(self) -> Mapping[str, str]:
         readings = (
             {"readings.csv": readings_csv(self.found)} if self.found.hours and self.found.is_worn else {}
         )
+        if readings and self.case is not None:
+            readings["reading.toml"] = self.shared_reading()
         return {
             "teeth.csv": csv_of(self.teeth),
             "gap.csv": csv_of(self.gap),
@@ -118,7 +145,7 @@ class ScanResult(DrawnAnswer):
 
 
 def scan(
-    photograph: str | PathLike[str],
+    photograph: str | PathLike[str] | Photograph,
     case: CaseInput | None = None,
     *,
     chain: str | None = None,
@@ -142,7 +169,8 @@ def scan(
     Parameters
     ----------
     photograph : path
-        PNG, JPEG or TIFF of one sprocket off its drive, with all teeth in the picture.
+        PNG, JPEG or TIFF of one sprocket off its drive, with all teeth in the picture; or a picture that
+        has been read.
     case : Case, DriveCase, path or mapping, optional
         The drive of the sprocket.
     chain : str, optional
@@ -204,7 +232,7 @@ def scan(
         check_series("scan", "scale", scale, Range(least=0.0), 5)
         check_ranges("scan", {"scale[4]": scale[4]}, {"scale[4]": ABOVE_0})
     one = None if case is None else _of_one(loaded(case), sprocket)
-    picture = read_photograph(Path(photograph))
+    picture = photograph if isinstance(photograph, Photograph) else read_photograph(Path(photograph))
     sheet = find_sheet(picture, ruler)
     plain = picture if sheet is None else sheet.cleared(picture)
     seen = find_silhouette(plain)
@@ -218,7 +246,7 @@ def scan(
     if known is None and sheet is not None:
         known = sheet.scale_of(wheel)
     found = replace(scan_photograph(plain, seen, wheel, known, sheet), photograph=picture)
-    return ScanResult(_with_hours(found, one, hours, progress))
+    return ScanResult(_with_hours(found, one, hours, progress), one)
 
 
 def _scale(

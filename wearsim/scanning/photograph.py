@@ -1,11 +1,13 @@
 """A photograph as light: read, turned upright, and on a scale that adds."""
 
+import io
 import math
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +48,20 @@ class Photograph:
 
 def read_photograph(path: Path) -> Photograph:
     """Return the picture in a file; raise CaseError for what is none, is damaged, too large or too small."""
-    with _faults(path), Image.open(path, formats=_FORMATS) as picture:
+    with _faults(path), path.open("rb") as file:
+        return _decoded(file, path)
+
+
+def photograph_of(content: bytes, name: str) -> Photograph:
+    """Return the picture that a file of some name holds; raise CaseError as `read_photograph` does."""
+    path = Path(name)
+    with _faults(path):
+        return _decoded(io.BytesIO(content), path)
+
+
+def _decoded(file: BinaryIO, path: Path) -> Photograph:
+    """Return the picture in an open file."""
+    with Image.open(file, formats=_FORMATS) as picture:
         _check_size(picture, path)
         _check_kind(picture, path)
         picture.load()

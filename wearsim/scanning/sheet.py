@@ -87,10 +87,11 @@ def readings_csv(found: ScannedWheel) -> str:
 def scan_text(found: ScannedWheel, explain: bool = False) -> str:
     """Return the answer as ``wearsim scan`` prints it."""
     title = f"{found.photograph.name}: {found.wheel.words}"
-    return answer_text(title, *_findings(found), *closing(found.assumptions, found.warnings, explain))
+    return answer_text(title, *scan_findings(found), *closing(found.assumptions, found.warnings, explain))
 
 
-def _findings(found: ScannedWheel) -> Iterator[Finding]:
+def scan_findings(found: ScannedWheel) -> Iterator[Finding]:
+    """Return what is said of the teeth, their depth and the picture."""
     depths, place, wheel = found.depths, found.depths.place, found.wheel
     teeth = depths.of_teeth[np.isfinite(depths.of_teeth)]
     yield Finding("Teeth", f"{wheel.teeth} " + ("as said and seen" if wheel.per_case else "counted"))

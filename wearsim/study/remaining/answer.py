@@ -3,13 +3,16 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from wearsim.case.model import Case
 from wearsim.drive.case_input import CaseInput, loaded
+from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import Allowed, Range, check_ranges
 from wearsim.readings.chain_state import chain_state
 from wearsim.readings.dated_rows import readings_file
+from wearsim.readings.shared_reading import BAND, check_sprocket, read_reading
 from wearsim.report.answer_table import table_of
 from wearsim.report.public_answer import Answer
 from wearsim.result import Life, LowerBound
@@ -123,6 +126,12 @@ def remaining(
 
 @overload
 def remaining(
+    case: CaseInput, *, reading: str | PathLike[str], sprocket: str | None = None, progress: Progress = silent
+) -> RemainingResult: ...
+
+
+@overload
+def remaining(
     case: CaseInput,
     *,
     readings: "str | PathLike[str] | pd.DataFrame | Sequence[Mapping[str, Any]]",
@@ -139,6 +148,7 @@ def remaining(
     size_over_pins: float | None = None,
     new_over_pins: float | None = None,
     elongation_percent: float | None = None,
+    reading: str | PathLike[str] | None = None,
     readings: "str | PathLike[str] | pd.DataFrame | Sequence[Mapping[str, Any]] | None" = None,
     error: float | None = None,
     sprocket: str | None = None,
@@ -147,8 +157,9 @@ def remaining(
     """Return the hours that are left after readings in service.
 
     One reading takes the place of the wear coefficient of the case: life times coefficient is constant.
-    Give hours and one of depth, over_pins, size_over_pins and elongation_percent. Or give readings, all
-    of one chain, for intervals of 50 and 90 %. `calibrate` takes several readings of the teeth too.
+    Give hours and one of depth, over_pins, size_over_pins and elongation_percent, or the file of a shared
+    reading. Or give readings, all of one chain, for intervals of 50 and 90 %. `calibrate` takes several
+    readings of the teeth too.
 
     Parameters
     ----------
@@ -166,6 +177,8 @@ def remaining(
         The same when the sprocket was new [mm]; without it that of the case.
     elongation_percent : float, optional
         Of the chain [%].
+    reading : path, optional
+        The ``reading.toml`` of a scan: hours, depth and its standard error, of which two are the error.
     readings : path, pandas.DataFrame or sequence of mapping, optional
         Rows of a chain: ``quantity``, ``value``, one of ``time_hours``, ``distance_km`` and ``date``,
         and ``links``, ``result`` and ``error`` where a row needs them.
@@ -220,17 +233,13 @@ def remaining(
     >>> round(wearsim.remaining(wrapped, readings=rows).summary()["remaining_hours"], 2)
     100.0
     """
+    alone = (hours, depth, over_pins, size_over_pins, new_over_pins, elongation_percent)
+    if reading is not None:
+        if any(value is not None for value in (*alone, readings, error)):
+            raise TypeError("remaining: a reading holds hours, depth and error, must be given without others")
+        return _of_shared(loaded(case), Path(reading), sprocket, progress)
     if readings is not None:
-        alone = {
-            "hours": hours,
-            "depth": depth,
-            "over_pins": over_pins,
-            "size_over_pins": size_over_pins,
-            "new_over_pins": new_over_pins,
-            "elongation_percent": elongation_percent,
-            "sprocket": sprocket,
-        }
-        if any(value is not None for value in alone.values()):
+        if any(value is not None for value in (*alone, sprocket)):
             raise TypeError("remaining: readings hold hours and values, must be given without others")
         check_ranges("remaining", {"error": error}, {"error": _ABOVE_0})
         with readings_file(readings) as file:
@@ -254,11 +263,23 @@ def remaining(
     )
     ((name, value),) = values
     quantity, usual_error = _READINGS[name]
-    reading = SingleReading(quantity, value, usual_error if error is None else error, hours)
-    part = read_part(loaded(case), reading, sprocket)
+    single = SingleReading(quantity, value, usual_error if error is None else error, hours)
+    part = read_part(loaded(case), single, sprocket)
     if name == "size_over_pins":
-        reading = from_size(part, reading, new_over_pins)
-    return RemainingResult(part, remaining_life(part, reading, progress))
+        single = from_size(part, single, new_over_pins)
+    return RemainingResult(part, remaining_life(part, single, progress))
+
+
+def _of_shared(
+    case: Case | DriveCase, file: Path, sprocket: str | None, progress: Progress
+) -> RemainingResult:
+    """Return what is left after the reading in a file."""
+    shared = read_reading(file)
+    read = shared.reading
+    single = SingleReading(DEPTH, read.depth_mm, BAND * read.depth_se_mm, read.time_hours)
+    part = read_part(case, single, sprocket)
+    check_sprocket(shared, part, file)
+    return RemainingResult(part, remaining_life(part, single, progress))
 
 
 _ABOVE_0 = Range(above=0.0, optional=True)

@@ -1,6 +1,7 @@
 """``wearsim remaining``: what is left of a life after readings in service."""
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -22,6 +23,12 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 @click.command(short_help="Estimate the remaining life from readings in service.")
 @click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
 @click.argument("readings", required=False, type=ReadingsPath(), metavar="[READINGS]")
+@click.option(
+    "--reading",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="The reading.toml of wearsim scan: hours, depth and its error.",
+)
 @click.option(
     "--hours",
     type=_POSITIVE,
@@ -86,6 +93,7 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 def remaining(
     case: Path,
     readings: Path | None,
+    reading: Path | None,
     hours: float | None,
     depth_mm: float | None,
     over_pins_mm: float | None,
@@ -100,9 +108,9 @@ def remaining(
 ) -> None:
     """Print the remaining hours of CASE; readings replace its wear coefficient.
 
-    With one reading: --hours and one of --depth-mm, --over-pins-mm, --size-over-pins-mm and --elongation;
-    for the teeth of a whole drive also --sprocket. Life times coefficient is constant, so the answer is
-    exact as long as the coefficient stays the same.
+    With one reading: --reading, or --hours and one of --depth-mm, --over-pins-mm, --size-over-pins-mm and
+    --elongation; for the teeth of a whole drive also --sprocket. Life times coefficient is constant, so
+    the answer is exact as long as the coefficient stays the same.
 
     With READINGS (.csv), the log of one chain by hours, km or date: chain_length_mm over links,
     elongation_percent, gauge_percent with go or no-go, and relubrications. The answer has intervals of
@@ -111,7 +119,7 @@ def remaining(
     values = (depth_mm, over_pins_mm, size_over_pins_mm, elongation)
     given = [value for value in values if value is not None]
     if readings is not None:
-        if given or hours is not None or sprocket is not None:
+        if given or hours is not None or sprocket is not None or reading is not None:
             raise click.UsageError("READINGS hold hours and values: leave out --hours, --sprocket and so on")
         shown.check(case, readings)
         (loaded,) = load_cases([case], settings, shown.as_json)
@@ -121,29 +129,32 @@ def remaining(
             of_chain = answer.remaining(loaded, readings=readings, error=reading_error_percent)
         shown.save(of_chain, case)
         return
-    if hours is None:
-        raise click.UsageError("give READINGS, or --hours and one reading")
-    if len(given) != 1:
+    if shown.out is not None:
+        raise click.UsageError("--out needs READINGS: one reading has neither table nor picture")
+    single: dict[str, Any]
+    if reading is not None:
+        if given or hours is not None:
+            raise click.UsageError("--reading holds hours and depth: leave out --hours, --depth-mm and so on")
+        single = {"reading": reading}
+    elif hours is None:
+        raise click.UsageError("give READINGS, --reading, or --hours and one reading")
+    elif len(given) != 1:
         raise click.UsageError(
             "give exactly one of --depth-mm, --over-pins-mm, --size-over-pins-mm, --elongation"
         )
-    if shown.out is not None:
-        raise click.UsageError("--out needs READINGS: one reading has neither table nor picture")
+    else:
+        single = {
+            "hours": hours,
+            "depth": depth_mm,
+            "over_pins": over_pins_mm,
+            "size_over_pins": size_over_pins_mm,
+            "new_over_pins": new_over_pins_mm,
+            "elongation_percent": elongation,
+            "error": reading_error_percent if elongation is not None else reading_error_mm,
+        }
     (loaded,) = load_cases([case], settings, shown.as_json)
     from wearsim.study.remaining import answer
 
-    error = reading_error_percent if elongation is not None else reading_error_mm
     with shown.failing(case.stem), working(f"wearing {loaded.title}") as progress:
-        found = answer.remaining(
-            loaded,
-            hours,
-            depth=depth_mm,
-            over_pins=over_pins_mm,
-            size_over_pins=size_over_pins_mm,
-            new_over_pins=new_over_pins_mm,
-            elongation_percent=elongation,
-            error=error,
-            sprocket=sprocket,
-            progress=progress,
-        )
+        found = answer.remaining(loaded, **single, sprocket=sprocket, progress=progress)
     shown.show(found, case)
