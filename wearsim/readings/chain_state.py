@@ -177,7 +177,7 @@ def _state(case: Case, as_logged: Mapping[str, Case], log: ChainLog, limit: floa
         assumptions=(*_assumptions(log, band), *case.assumptions),
         warnings=(
             *contradiction_warnings(excluding),
-            *_warnings(log, posterior, band, lives),
+            *_warnings(case, log, posterior, band, lives),
             *case.warnings,
         ),
     )
@@ -273,7 +273,7 @@ def _of_lengths(log: ChainLog) -> Iterator[str]:
 
 
 def _warnings(
-    log: ChainLog, posterior: FactorPosterior, band: WearBand, lives: tuple[float, ...]
+    case: Case, log: ChainLog, posterior: FactorPosterior, band: WearBand, lives: tuple[float, ...]
 ) -> Iterator[str]:
     yield from band_warning(posterior.nearest, band, JOINTS)
     if posterior.scale > 1.0:
@@ -283,7 +283,7 @@ def _warnings(
         )
     yield from log.time.warnings(log.readings[0].hours)
     of_which = f"chain {log.mounted}: " if log.mounted else ""
-    yield from (of_which + text for text in log.relubrications.warnings())
+    yield from (of_which + text for text in log.relubrications.warnings(case.lubrication))
     if lives[-1] <= log.today:
         yield f"{of_which}the limit is reached, by all that was read: replace the chain"
     elif lives[0] <= log.today:

@@ -139,7 +139,7 @@ class CaseFit:
                 *fit_warnings(
                     self.case, values, correlation, found, self.observations, self.freedom, self.options
                 ),
-                *self.time.log.warnings(),
+                *self.time.log.warnings(self.case.lubrication),
                 *warnings_of_runs(self.settled, self.parameters.predictions.numerical_error, parts),
             ),
         )
