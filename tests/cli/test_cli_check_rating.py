@@ -5,6 +5,7 @@ conveyor with ПР-25,4, E the rating point of no. 40. 1 hp = 0.745699872 kW.
 """
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -35,6 +36,16 @@ def checked(cli):
         return json.loads(done.out)
 
     return check
+
+
+def test_loads_of_a_heavy_drive_are_grouped(cli, tmp_path):
+    """24B-1 pulled by 20 kW at 80 rpm: more than 20 000 N on the shafts."""
+    path = tmp_path / "heavy.toml"
+    drive = ("--chain", "24B-1", "--driver", 19, "--driven", 38, "--power", 20, "--rpm", 80)
+    assert cli("init", *drive, "--out", path).code == 0
+    text = cli("check", path).out
+    assert re.search(r"shaft 2\d \d{3} N", text)
+    assert not re.search(r"\de[+-]\d", text)
 
 
 def finding(content, name):

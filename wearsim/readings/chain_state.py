@@ -14,6 +14,7 @@ from wearsim.drive.wrap_life import chain_band, chain_clock, chain_prior, wrap_o
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.drive import instead_of
+from wearsim.quantities import grouped
 from wearsim.readings.chain_log import ChainLog, read_chain_log
 from wearsim.readings.chain_readings import NO_GO, ChainReading
 from wearsim.readings.contradictions import (
@@ -243,7 +244,7 @@ def _assumptions(log: ChainLog, band: WearBand) -> Iterator[str]:
     if log.times_relubricated:
         yield (
             "the load does not change, and the chain on the drive is relubricated every "
-            f"{log.relubrications.mean_interval:.4g} h as before, instead of by [lubrication]"
+            f"{grouped(log.relubrications.mean_interval)} h as before, instead of by [lubrication]"
         )
     else:
         yield "load and lubrication do not change"

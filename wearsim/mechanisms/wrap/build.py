@@ -29,6 +29,7 @@ from wearsim.mechanisms.wrap.place_in_loop import (
     loop_loads,
     turning_factor,
 )
+from wearsim.quantities import grouped
 
 CENTRE_IN_PITCHES = 40.0
 SAG_PERCENT = 2.0
@@ -95,7 +96,7 @@ def wrapped_drive(
     if least is not None and least > slack:
         faults.add(
             "stop.min_slack_tension_N",
-            f"must not exceed the slack tension of the drive, {slack:.4g} N (got {least:g})",
+            f"must not exceed the slack tension of the drive, {grouped(slack)} N (got {least:g})",
         )
     return WrapDrive(
         outline=shape.outline,
@@ -256,8 +257,8 @@ def _tensions(
             "slack tension is used there"
         )
     case.assumptions.append(
-        f"tight strand {_range([block.tension for block in found], 6)} N, slack strand {slack:.4g} N, and "
-        f"{_range([block.centrifugal for block in found], 3)} N centrifugal tension in both, which "
+        f"tight strand {_range([block.tension for block in found], 6)} N, slack strand {grouped(slack)} N, "
+        f"and {_range([block.centrifugal for block in found], 3)} N centrifugal tension in both, which "
         "loads joints but not teeth"
     )
     strained = max(rated, key=lambda block: block.tension + block.centrifugal)
@@ -297,7 +298,8 @@ def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float, turni
 
 def _fault_slack(case: ChainRecord, key: str, tight: float, slack: float) -> None:
     case.faults.add(
-        key, f"the tight strand must pull more than the slack one, {slack:.4g} N (got {tight:.4g} N)"
+        key,
+        f"the tight strand must pull more than the slack one, {grouped(slack)} N (got {grouped(tight)} N)",
     )
 
 

@@ -14,6 +14,7 @@ from wearsim.drive.maintenance import drive_prices, part_lives
 from wearsim.drive.part_life import simulate
 from wearsim.drive.replacement_rules import Prices
 from wearsim.errors import CaseError, Fault
+from wearsim.quantities import grouped
 from wearsim.readings.chain_state import ChainState, chain_state
 from wearsim.readings.teeth_as_read import TEETH_WORDS, Teeth, teeth_warning
 from wearsim.result.ends import CHAIN, PartEnd
@@ -196,12 +197,13 @@ def _not_known(parts: tuple[PartNow, ...], until: float) -> Iterator[str]:
     """Say of which parts it is not known whether they last for the year."""
     for one in parts:
         if not one.worn_out and one.left < until:
+            run, left = grouped(one.life), grouped(one.left)
             yield (
-                f"{one.name} did not wear out in its run of {one.life:.4g} h, of which {one.left:.4g} h are "
-                "left: whether it lasts for the year is not known, a longer run.horizon_hours may show"
+                f"{one.name} did not wear out in its run of {run} h, of which {left} h are left: "
+                "whether it lasts for the year is not known, a longer run.horizon_hours may show"
             )
         if one.used < 0.0:
-            yield f"{one.name} is fitted only {-one.used:.4g} h after the last row of the log"
+            yield f"{one.name} is fitted only {grouped(-one.used)} h after the last row of the log"
 
 
 def _conventions(plan: YearPlan) -> Iterator[str]:

@@ -44,7 +44,7 @@ class ChainReadingsResult(DrawnAnswer):
     def headline(self) -> str:
         """The hours that are left, and their interval."""
         low, _, middle, _, high = self.found.of("remaining_hours").values
-        return f"{grouped(float(middle))} h left to the chain (90 %: {low:.4g} to {high:.4g} h)"
+        return f"{grouped(float(middle))} h left to the chain (90 %: {grouped(float(low))} to {grouped(float(high))} h)"
 
     @property
     def text(self) -> str:
