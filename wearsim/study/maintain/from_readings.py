@@ -134,8 +134,9 @@ def _ends(case: Case | DriveCase, progress: Progress) -> Mapping[str, PartEnd]:
         return {SPROCKET: _end(result.ends, (SPROCKET,), result.parts[SPROCKET].hours_run)}
     found = drive_life(case, progress).complete()
     lives = part_lives(found)
-    worn = [wheel for wheel in case.wheels if wheel.parts]
-    return {wheel.name: _end(found.ends, wheel.parts, lives[wheel.name].hours_run) for wheel in worn}
+    return {
+        wheel.name: _end(found.ends, wheel.parts, lives[wheel.name].hours_run) for wheel in case.worn_wheels
+    }
 
 
 def _end(ends: Iterable[PartEnd], parts: Sequence[str], hours: float) -> PartEnd:
