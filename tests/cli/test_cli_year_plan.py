@@ -144,6 +144,14 @@ def test_a_case_as_init_writes_it_knows_what_to_do_with_a_log(cli, plan, tmp_pat
     assert any("how long lubricant 'manual' lasts is not known" in text for text in found["warnings"])
 
 
+def test_a_new_chain_is_not_relubricated_on_its_first_day(plan):
+    """331 days to the limit, as many as from one relubrication to the next: one day for both."""
+    log = LOG.replace("28.11.2026;elong", "28.11.2026;relubrication;;;;\n28.11.2026;elong")
+    oiled = ("--set", "lubrication={lasts_hours = 9000, dry_factor = 2}")
+    days = [(job["date"], job["job"]) for job in plan(*oiled, log=log)["jobs"] if job["job"] != "keep"]
+    assert days == [("2027-10-25", "replace")]
+
+
 HOURS = "time_hours,quantity,value\n500,elongation_percent,0.5\n"
 
 

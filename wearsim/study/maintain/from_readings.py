@@ -92,7 +92,8 @@ def year_plan(
     parts = _parts(state, ends)
     prices = _of_all_chains(_prices(given), state)
     until = year_of_hours(state.case.inputs["service"]["hours_per_day"])
-    jobs = [*replacements(parts, until, prices), *_relubrications(state, until)]
+    replaced = replacements(parts, until, prices)
+    jobs = [*replaced, *_beside_new_chains(state, _relubrications(state, until), replaced)]
     return YearPlan(
         given=given,
         state=state,
@@ -192,6 +193,13 @@ def _relubrications(state: ChainState, until: float) -> list[Job]:
     done = max((hours for hours in (*given.at_hours, 0.0) if hours <= log.today), default=0.0)
     first = done + every * math.ceil((log.today - done) / every) - log.today
     return relubrications(first, every, until, given.application_cost)
+
+
+def _beside_new_chains(state: ChainState, jobs: Sequence[Job], replaced: Sequence[Job]) -> list[Job]:
+    """Return relubrications but those on the day of a new chain, which comes lubricated."""
+    now = state.log.machine
+    new = {state.day(now + job.hours) for job in replaced if CHAIN in job.parts}
+    return [job for job in jobs if state.day(now + job.hours) not in new]
 
 
 def _not_known(parts: tuple[PartNow, ...], until: float) -> Iterator[str]:
