@@ -106,3 +106,11 @@ def test_bibtex_is_well_formed(cli):
 
 def test_unknown_style(cli):
     assert cli("cite", "--format", "ris").code == 2
+
+
+def test_sources_have_their_titles(cli):
+    """The title pages of J. Appl. Phys. 24, 981, and Wear 261, 1253."""
+    text = cli("cite", "--format", "bibtex").out
+    assert "not on record" not in text
+    assert "Contact and rubbing of flat surfaces" in text
+    assert "A mathematical model to predict railway wheel profile evolution due to wear" in text

@@ -235,7 +235,7 @@ def test_bad_input_is_named(settings: list[str], key: str, words: str) -> None:
         ({"lubricant": "dry", "interval_hours": 10}, "interval_hours", "needs a lubricant"),
         ({"lubricant": "dry", "lasts_hours": 10}, "lasts_hours", "dry contacts have no lubricant"),
         ({"lubricant": "drip", "interval_hours": 10}, "interval_hours", "supplied continuously"),
-        ({"lubricant": "manual", "interval_hours": 10}, "lasts_hours", "nothing is known about how long"),
+        ({"lubricant": "manual", "when_rate_exceeds": 2}, "lasts_hours", "nothing is known about how long"),
         ({"lasts_hours": 10, "interval_hours": 10}, "dry_factor", "needed where a lubricant ages"),
         ({"lubricant": "manual", "fades_over_hours": 10}, "fades_over_hours", "needs lasts_hours"),
         (
@@ -260,6 +260,14 @@ def test_contradictory_table_is_named(table: dict[str, Any], key: str, words: st
     text = faults({**STRAND, "lubrication": table})
     assert f"lubrication.{key}" in text
     assert words in text
+
+
+def test_a_schedule_changes_nothing_where_nobody_knows_how_long_a_lubricant_lasts() -> None:
+    by_hand = {**STRAND, "lubrication": {"lubricant": "manual"}}
+    scheduled = {**STRAND, "lubrication": {"lubricant": "manual", "interval_hours": 10}}
+    assert hours(scheduled) == hours(by_hand)
+    (text,) = (text for text in wearsim.load_case(scheduled).warnings if "is not known" in text)
+    assert "lubrication.interval_hours does not change the wear; give lubrication.lasts_hours" in text
 
 
 @pytest.mark.parametrize(

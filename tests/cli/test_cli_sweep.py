@@ -288,7 +288,11 @@ def test_warnings_of_cases_close_the_answer(cli, sweep):
     """A tolerance of 1e-5 is out of reach, one of 0.1 is not; rows of --json hold their own warnings."""
     path = sweep('[grid]\n"run.life_tolerance" = [0.1, 1e-5]\n')
     done = cli("sweep", path)
-    [line] = [line for line in done.err.splitlines() if line.startswith("warning: ")]
+    missed, line = [line for line in done.err.splitlines() if line.startswith("warning: ")]
     assert line.startswith("warning: 1 of 2 cases has warnings")
     assert "the first: numerical error " in line
-    assert "warning" not in cli("sweep", path, "--json").err
+    as_json = cli("sweep", path, "--json")
+    error = json.loads(as_json.out.splitlines()[1])["numerical_error"]
+    assert missed.startswith("warning: 1 of 2 cases misses its run.life_tolerance, with a stated error of up")
+    assert f"up to {100 * error:.2g} %" in missed
+    assert as_json.err.count("warning") == 1

@@ -1,14 +1,16 @@
 """``wearsim uncertainty``: P10, P50 and P90 of a life whose inputs scatter."""
 
+import csv
 import json
 import math
 import re
 
+import numpy as np
 import pytest
 
 from wearsim.drive.load_case import load_case
 from wearsim.input.document import read_document
-from wearsim.quantities import Quantity, percentile_shares, quantities
+from wearsim.quantities import Quantity, grouped, percentile_shares, quantities
 from wearsim.runner.scatter import plain_document
 
 SCATTER = """\
@@ -228,9 +230,25 @@ def test_bounds_do_not_converge(cli, case):
     assert row.count("not known") == 3
 
 
+def test_errors_that_miss_their_tolerance_are_told_with_what_they_do_to_the_percentiles(cli, case, tmp_path):
+    """Percentiles rise with every life: all lives lower, or higher, by their errors are the ends."""
+    more = SCATTER % 0.3 + "[run]\nlife_tolerance = 1e-5\n"
+    done = cli("uncertainty", case(more), "--samples", 16, "--out", tmp_path / "out", "--json")
+    with (tmp_path / "out" / "cases.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    found = [(float(row["life_hours"]), float(row["numerical_error"])) for row in rows]
+    ends = [np.quantile([h * (1 + s * e) for h, e in found], 0.5, method="median_unbiased") for s in (-1, 1)]
+    (text,) = (text for text in json.loads(done.out)["warnings"] if "miss their run.life_tolerance" in text)
+    assert text.startswith("16 of 16 cases miss")
+    assert f"P50 is {grouped(ends[0])} to {grouped(ends[1])} h" in text
+
+
 def test_warnings_of_samples_are_grouped(cli, case):
     _, found = answer(cli, case(), "--samples", 16)
-    assert all(text.startswith("16 of 16 samples, such as case_index 0: ") for text in found["warnings"])
+    missed, *texts = found["warnings"]
+    assert "miss their run.life_tolerance" in missed
+    assert texts
+    assert all(text.startswith("16 of 16 samples, such as case_index 0: ") for text in texts)
 
 
 def test_plan_finds_what_is_in_the_way(cli, case, tmp_path):

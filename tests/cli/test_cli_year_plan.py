@@ -129,6 +129,29 @@ def test_relubrications_are_jobs(plan):
     assert (first["date"], first["cost"]) == ("2026-12-29", 4.0)
 
 
+def test_a_case_as_init_writes_it_knows_what_to_do_with_a_log(cli, plan, tmp_path):
+    """Oil by hand, of which nobody said how long it lasts: 30 days after the last time, and so again."""
+    rows = "date,quantity,value,error\n01.01.2026,new,,\n31.01.2026,relubrication,,\n"
+    (tmp_path / "log.csv").write_text(rows + "10.02.2026,elongation_percent,0.1,0.01\n", encoding="utf-8")
+    assert cli("init", "--lubrication", "manual", "--out", tmp_path / "new.toml").code == 0
+    done = cli(
+        "maintain", tmp_path / "new.toml", tmp_path / "log.csv", "--json", "--set", "sprocket.1.nodes=31"
+    )
+    assert done.code == 0, done.err
+    found = json.loads(done.out)
+    dates = [job["date"] for job in found["jobs"] if job["job"] == "relubricate"]
+    assert dates[:2] == ["2026-03-02", "2026-04-01"]
+    assert any("how long lubricant 'manual' lasts is not known" in text for text in found["warnings"])
+
+
+def test_a_new_chain_is_not_relubricated_on_its_first_day(plan):
+    """331 days to the limit, as many as from one relubrication to the next: one day for both."""
+    log = LOG.replace("28.11.2026;elong", "28.11.2026;relubrication;;;;\n28.11.2026;elong")
+    oiled = ("--set", "lubrication={lasts_hours = 9000, dry_factor = 2}")
+    days = [(job["date"], job["job"]) for job in plan(*oiled, log=log)["jobs"] if job["job"] != "keep"]
+    assert days == [("2027-10-25", "replace")]
+
+
 HOURS = "time_hours,quantity,value\n500,elongation_percent,0.5\n"
 
 

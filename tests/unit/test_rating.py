@@ -214,6 +214,23 @@ def test_joint_factor_follows_lubricant_and_hours(lubricant, hours, factor):
     assert wearsim.load_case(tables).drive.joint_application_factor == pytest.approx(factor, rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("shocks", "factor"), [(1.0, 1.0), (1.4, 1.35), (1.5, 1.35), (1.8, 1.8), (1.95, 1.8)]
+)
+def test_joint_factor_follows_the_shocks_of_f1(shocks, factor):
+    """ISO 10823, smooth driver: 1.4 moderate, 1.8 heavy shocks; the GOST table: 1.35 and 1.8."""
+    tables = {**WRAP, "drive": {**WRAP["drive"], "service_factor": shocks}}
+    assert wearsim.load_case(tables).drive.joint_application_factor == pytest.approx(factor, rel=1e-14)
+
+
+def test_joint_factor_that_the_shocks_of_f1_exceed():
+    drive = {**WRAP["drive"], "service_factor": 1.8, "joint_application_factor": 1.0}
+    (told,) = [text for text in wearsim.load_case({**WRAP, "drive": drive}).warnings if "joint_app" in text]
+    assert (
+        "= 1 is below the 1.8 that GOST practice gives for heavy shocks (service_factor = 1.8) alone" in told
+    )
+
+
 def test_joint_factor_that_the_lubricant_exceeds():
     """A factor that was right for drip oil, in a case whose lubricant was changed since."""
     drive = {**WRAP["drive"], "joint_application_factor": 1.25}

@@ -319,7 +319,7 @@ BAD = [
     (
         "time_hours",
         ["500,relubrication,,,,", "600,elongation_percent,0.6,,,"],
-        "needs [lubrication] in the case",
+        "needs [lubrication] in the case: add lubricant = 'manual'",
     ),
     ("date", ["2026-02-30,elongation_percent,0.6,,,"], ":2: date: must be a day such as 2026-03-31"),
     ("date", ["500,elongation_percent,0.6,,,"], ":2: date: must be a day such as 2026-03-31"),
@@ -351,17 +351,29 @@ def test_days_before_the_chain_was_new_are_named(table):
         chain_state(dated, rows)
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [({"lubricant": "drip"}, "supplied continuously"), ({"lubricant": "greased"}, "lasts_hours")],
-)
-def test_a_log_of_a_lubricant_that_is_not_renewed_is_named(table, given, message):
+@pytest.mark.parametrize("name", ["drip", "dry"])
+def test_a_log_of_a_lubricant_that_is_not_renewed_is_named(table, name):
     rows = table("150,relubrication,,,,", "400,elongation_percent,1.0,,,")
     with pytest.raises(
         wearsim.CaseError,
-        match=f"readings.csv:2: quantity: relubrication sets lubrication.at_hours:.*{message}",
+        match=f"readings.csv:2: quantity: .*not lubrication.lubricant = '{name}': make it 'manual'",
     ):
-        chain_state(case(lubrication=given), rows)
+        chain_state(case(lubrication={"lubricant": name}), rows)
+
+
+def test_a_log_of_a_lubricant_that_lasts_nobody_knows_how_long_changes_no_wear(table):
+    """The case without a log takes it to last, too."""
+    greased = case(lubrication={"lubricant": "greased"})
+    reading = "400,elongation_percent,1.0,,,"
+    never, logged = (
+        chain_state(greased, table(reading)),
+        chain_state(greased, table("150,relubrication,,,,", reading)),
+    )
+    assert logged.of("life_hours").values == never.of("life_hours").values
+    said = [
+        [text for text in one.warnings if "'greased' lasts is not known" in text] for one in (never, logged)
+    ]
+    assert list(map(len, said)) == [0, 1]
 
 
 def test_a_strand_has_no_chain_to_read(table):

@@ -179,7 +179,7 @@ def test_one_that_is_overdue_comes_now_and_counts() -> None:
     """Relubricated at 1 h and not in the 804 h since: two in 805 h, the second one today."""
     log = at_one_interval({"": RelubricationLog("log.csv", "time_hours", 2, (1.0,), 805.0)})[""]
     assert (log.mean_interval, log.to_come) == (402.5, 805.0)
-    assert "in the last 804 h, but they came every 1 h before" in next(log.warnings())
+    assert "in the last 804 h, but they came every 1 h before" in next(log.warnings(None))
     in_time = at_one_interval({"": RelubricationLog("log.csv", "time_hours", 2, (100.0, 200.0), 300.0)})[""]
     assert (in_time.mean_interval, in_time.to_come, [*in_time.warnings()]) == (100.0, 300.0, [])
 

@@ -1,6 +1,7 @@
 """Smooth idlers: held against sprockets on whose pitch circle their rollers lie."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -53,6 +54,20 @@ def test_a_smooth_idler_is_no_part_that_wears() -> None:
     found = wearsim.simulate(wearsim.load_case(on_pitch_circle(13)))
     assert set(found.parts) == {"chain", "motor", "pump"}
     assert any("'idler' is smooth" in text for text in found.drive.assumptions)
+
+
+@pytest.mark.parametrize("name", [None, "idler", "moter"])
+def test_a_sprocket_of_the_drive_is_asked_for_in_the_same_words(name: str | None, tmp_path: Path) -> None:
+    """The smooth idler is none: it has no teeth to export, nor to photograph."""
+    case = wearsim.load_case(on_pitch_circle(13))
+    assert [wheel.name for wheel in case.worn_wheels] == ["motor", "pump"]
+    got = "" if name is None else f" \\(got '{name}'\\)"
+    asked = f"sprocket: must name one wheel of the whole drive: one of 'motor', 'pump'{got}$"
+    with pytest.raises(wearsim.CaseError, match=asked):
+        wearsim.export(case, tmp_path / "wheel.dxf", sprocket=name)
+    with pytest.raises(wearsim.CaseError, match=asked):
+        case.titled_case(name)
+    assert case.titled_case("pump").title.endswith(": pump")
 
 
 def test_a_larger_wheel_turns_the_joints_less() -> None:

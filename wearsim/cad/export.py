@@ -17,7 +17,7 @@ from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.part_life import simulate
-from wearsim.errors import CaseError, Fault, OutputError, check_ranges
+from wearsim.errors import OutputError, check_ranges
 from wearsim.files import check_free, write_file
 from wearsim.geometry.wheel_outline import State
 from wearsim.report.flank_view import case_of
@@ -182,12 +182,8 @@ def _case(source: CaseInput | WearResult | DriveLife, sprocket: str | None) -> t
     found = loaded(source.drive if isinstance(source, DriveLife) else source)
     if not isinstance(found, DriveCase):
         return found, None
-    cases = found.titled_cases()
-    if sprocket not in cases:
-        names = " or ".join(f"sprocket={name!r}" for name in cases)
-        text = "must name one wheel of the drive" + (f" (got {sprocket!r})" if sprocket else "")
-        raise CaseError([Fault(f"{text}: give {names}, one call per wheel", "sprocket", found.name)])
-    return cases[sprocket], source.results[sprocket] if isinstance(source, DriveLife) else None
+    one = found.titled_case(sprocket)
+    return one, source.results[sprocket or ""] if isinstance(source, DriveLife) else None
 
 
 def _format(place: str | PathLike[str] | None, known: Iterable[str]) -> str | None:

@@ -10,6 +10,7 @@ import numpy as np
 from wearsim.chain.chain_loop import ChainLoop
 from wearsim.chain.loop_path import FULL_TURN, Floats
 from wearsim.errors import CaseError, Fault
+from wearsim.quantities import grouped
 
 _ROUNDING = 1e-12
 """Part of a vector below which a component is what rounding left of none."""
@@ -223,8 +224,9 @@ def loop_forces(
     if found.min() <= 0.0:
         span = loop.span_name(int(found.argmin()))
         message = (
-            f"every span must be in tension, {span} would have {found.min():.4g} N: use more tension at the "
-            "take-up, reverse its force, or put it on the slack side, where the chain leaves a driver"
+            f"every span must be in tension, {span} would have {grouped(found.min())} N: use more "
+            "tension at the take-up, reverse its force, or put it on the slack side, where the chain leaves "
+            "a driver"
         )
         raise CaseError([Fault(f"chain loop: {message}")])
     return LoopForces(loop, found, centrifugal, friction_lever, tuple(bool(one) for one in idle))

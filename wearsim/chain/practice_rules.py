@@ -25,6 +25,7 @@ from wearsim.chain.power_rating import (
 from wearsim.chain.practice_drive import RATED_ELONGATION, PracticeDrive
 from wearsim.chain.rating_findings import LARGEST_PITCH, rating_note
 from wearsim.errors import GeometryError
+from wearsim.quantities import grouped
 
 GOST_HOURS = 10_000.0
 """Hours to 3 % assumed behind the [p] of GOST practice; handbooks have 3000 to 10 000."""
@@ -186,7 +187,7 @@ def _greatest_pressure(drive: PracticeDrive) -> float:
 
 def _under(block: PracticeDrive, duty: Sequence[PracticeDrive]) -> str:
     """Say which block of several."""
-    return f" under {block.pull:.4g} N at {block.speed:.4g} rpm" if len(duty) > 1 else ""
+    return f" under {grouped(block.pull)} N at {block.speed:.4g} rpm" if len(duty) > 1 else ""
 
 
 def pressure_velocity(*duty: PracticeDrive) -> float:

@@ -15,6 +15,7 @@ from wearsim.chain.power_rating import (
     strand_factor,
 )
 from wearsim.errors import CaseError, Fault
+from wearsim.quantities import grouped
 
 LARGEST_PITCH = 76.2
 """Largest pitch that the ANSI rating covers, no. 240 [mm]."""
@@ -341,8 +342,8 @@ def _compared(finding: RatingFinding) -> str:
     source = f"{finding.source}; {kind} here" if finding.note else finding.source
     of = f" with {finding.load}" if finding.load else ""
     return (
-        f"{finding.name} {finding.value:.4g}{unit}{of}, allowed at {side} {finding.limit:.4g}{unit} "
-        f"({source})"
+        f"{finding.name} {grouped(finding.value)}{unit}{of}, allowed at {side} "
+        f"{grouped(finding.limit)}{unit} ({source})"
     )
 
 
@@ -357,5 +358,5 @@ def overload_fault(findings: Sequence[RatingFinding]) -> str:
     outside = overloading(findings)
     if not outside:
         return ""
-    found = "; ".join(f"{_compared(one)}: {100.0 * one.used:.4g} % of it" for one in outside)
+    found = "; ".join(f"{_compared(one)}: {grouped(100.0 * one.used)} % of it" for one in outside)
     return f"the load must stay within its ratings: {found}: use a larger chain, more strands or less power"

@@ -20,12 +20,30 @@ LUBRICATIONS = {
 That table ends with periodic lubrication: a dry joint wears more than its factor of 1.5 says.
 """
 
+STEADY = "steady"
+"""Load without shocks in the GOST table."""
+
 SHOCKS = {
-    "smooth": ("smooth", "steady"),
+    "smooth": ("smooth", STEADY),
     "moderate": ("moderate shocks", "moderate shocks"),
     "heavy": ("heavy shocks", "heavy shocks"),
 }
 """Driven machine of ISO 10823, and load of the GOST table, by the word for shocks."""
+
+
+def load_of(service_factor: float) -> str:
+    """Return the load of the GOST table whose shocks have the f1 nearest to one, of two as near the harder.
+
+    Examples
+    --------
+    Moderate and heavy shocks have 1.4 and 1.8, moderate ones of both machines 1.7:
+
+    >>> [load_of(factor) for factor in (1.0, 1.1, 1.4, 1.7, 2.1)]
+    ['steady', 'steady', 'moderate shocks', 'heavy shocks', 'heavy shocks']
+    """
+    factors = {load: application_factor("smooth", driven) for driven, load in SHOCKS.values()}
+    return min(factors, key=lambda load: (abs(factors[load] - service_factor), -factors[load]))
+
 
 SHIFTS = ((8.0, "one"), (16.0, "two"), (24.0, "three"))
 """Hours a day up to which a drive runs in so many shifts."""

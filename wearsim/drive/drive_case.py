@@ -134,6 +134,26 @@ class DriveCase(ReadTables):
         """Return the cases of all sprockets by their names, under titles that say which one of what drive."""
         return {one.name: replace(one.case, title=f"{self.title}: {one.name}") for one in self.sprockets}
 
+    def titled_case(self, sprocket: str | None) -> Case:
+        """Return the case of the sprocket that is named, under a title that says so.
+
+        Raises
+        ------
+        CaseError
+            None is named, or one that the drive has not.
+        """
+        cases = self.titled_cases()
+        if sprocket not in cases:
+            got = "" if sprocket is None else f" (got {sprocket!r})"
+            text = f"must name one wheel of the whole drive: one of {', '.join(map(repr, cases))}{got}"
+            raise CaseError([Fault(text, "sprocket", self.name)])
+        return cases[sprocket]
+
+    @property
+    def worn_wheels(self) -> tuple[DriveWheel, ...]:
+        """Wheels with teeth that wear: all but smooth idlers."""
+        return tuple(wheel for wheel in self.wheels if not wheel.is_smooth)
+
     @property
     def single_cases(self) -> dict[str, Case]:
         """Cases of single sprockets by their names."""

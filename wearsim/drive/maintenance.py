@@ -137,8 +137,8 @@ def part_lives(found: DriveLife) -> dict[str, Life | LowerBound]:
     """
     earliest = found.earliest_lives
     lives = {CHAIN: earliest[CHAIN]}
-    for wheel in found.drive.wheels:
-        if not wheel.parts or not found.failed.keys().isdisjoint(wheel.parts):
+    for wheel in found.drive.worn_wheels:
+        if not found.failed.keys().isdisjoint(wheel.parts):
             continue
         cogs = [earliest[name] for name in wheel.parts]
         lives[wheel.name] = min(cogs, key=lambda life: (life.hours_run, isinstance(life, LowerBound)))
@@ -149,7 +149,7 @@ def drive_prices(drive: DriveCase) -> Prices | None:
     """Return the prices of the parts of a drive; None where one is not given."""
     tables = {one.name: maintenance_of(one.case.inputs) for one in drive.sprockets}
     first = tables[drive.sprockets[0].name]
-    worn = [wheel for wheel in drive.wheels if wheel.parts]
+    worn = drive.worn_wheels
     prices = {
         wheel.name: price for wheel in worn if (price := tables[wheel.parts[0]].sprocket_price) is not None
     }

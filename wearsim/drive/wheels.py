@@ -39,6 +39,11 @@ class DriveWheel:
         return tuple((cog.teeth, cog.share_of_time) for cog in self.table.cog or ())
 
     @property
+    def is_smooth(self) -> bool:
+        """Whether it is an idler without teeth, which does not wear."""
+        return not self.parts
+
+    @property
     def parts(self) -> tuple[str, ...]:
         """Names under which it is run: its own, those of all cogs of a cassette, none of a smooth idler."""
         if self.table.smooth_diameter_mm is not None:
@@ -142,7 +147,7 @@ def _check_together(wheels: Sequence[DriveWheel], faults: Faults) -> None:
     cassettes = [number for number, wheel in enumerate(wheels, start=1) if wheel.cogs]
     if len(cassettes) > 1:
         faults.add(f"sprocket.{cassettes[1]}.cog", "one sprocket can have cogs: remove those of the other")
-    smooth = [number for number, wheel in enumerate(wheels, start=1) if not wheel.parts]
+    smooth = [number for number, wheel in enumerate(wheels, start=1) if wheel.is_smooth]
     if cassettes and smooth:
         text = "a drive with cogs cannot have a smooth idler yet: give the idler teeth"
         faults.add(f"sprocket.{smooth[0]}.smooth_diameter_mm", text)

@@ -24,6 +24,7 @@ from wearsim.geometry.profile_points import Vector, area_between
 from wearsim.lubrication.model import DIRT
 from wearsim.mechanisms.wrap.contact import WrapContact
 from wearsim.mechanisms.wrap.drive import WrapDrive, over_pins, wrap_drive
+from wearsim.quantities import grouped
 from wearsim.result import Life, LimitState, LowerBound, WearResult, environment, life_of
 from wearsim.result.folder import with_files
 from wearsim.result.second_opinions import SecondOpinions, second_opinions
@@ -279,7 +280,7 @@ def _clock_assumptions(case: Case, law: WearLaw) -> tuple[str, ...]:
         *found,
         "joints of every new chain run in over their own sliding distance on all sprockets, the extra wear "
         "falls to 1/e in "
-        f"{hours:.4g} h",
+        f"{grouped(hours)} h",
     )
 
 

@@ -34,6 +34,14 @@ class PhaseInput:
     contaminations: int  # spread evenly, in the middle of equal parts; none where dirt comes all the time
 
 
+def lasting_not_known(name: str, schedule: str) -> str:
+    """Say that a schedule changes nothing where it is not known how long a lubricant lasts."""
+    return (
+        f"how long lubricant {name!r} lasts is not known: it is assumed to last from one relubrication to "
+        f"the next, so that {schedule} does not change the wear; give lubrication.lasts_hours if you know it"
+    )
+
+
 LASTING, DIRT = "how long the lubricant lasts", "dirt"
 
 

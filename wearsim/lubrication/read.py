@@ -22,7 +22,7 @@ from wearsim.lubrication.keys import (
     LubricationPhase,
     LubricationTable,
 )
-from wearsim.lubrication.model import ENDLESS, LubricationInput, PhaseInput, RunningWay
+from wearsim.lubrication.model import ENDLESS, LubricationInput, PhaseInput, RunningWay, lasting_not_known
 
 _LASTS_BAND = 1.5
 """Factor to either side of how long a lubricant lasts where nobody says how surely that is known."""
@@ -174,20 +174,28 @@ class _Reader:
             return True
         if row is not None and row.lasts is not None:
             return True
-        schedule = self._given((*INTERVAL, *AT, "when_rate_exceeds"))
-        if schedule is not None and (row is None or row.supply == "applied"):
-            what = "this lubricant" if row is None else f"lubricant {row.lubricant!r}"
-            self._fault(
-                "lasts_hours",
-                f"{schedule} needs this key, lasts_km or lasts_sliding_m: nothing is known about how long "
-                f"{what} lasts",
-            )
+        self._check_lasting()
         fades = self._given(FADES)
         if fades is not None:
             self._fault(
                 fades, "needs lasts_hours, lasts_km or lasts_sliding_m too: give one of them, or remove this"
             )
         return False
+
+    def _check_lasting(self) -> None:
+        """Say that a schedule changes nothing where a lubricant lasts nobody knows how long, or cannot be."""
+        row, schedule = self.row, self._given((*INTERVAL, *AT, "when_rate_exceeds"))
+        if schedule is None or (row is not None and row.supply != "applied"):
+            return
+        if row is not None and schedule != "when_rate_exceeds":
+            self.case.warnings.append(lasting_not_known(row.lubricant, f"lubrication.{schedule}"))
+            return
+        what = "this lubricant" if row is None else f"lubricant {row.lubricant!r}"
+        self._fault(
+            "lasts_hours",
+            f"{schedule} needs this key, lasts_km or lasts_sliding_m: nothing is known about how long "
+            f"{what} lasts",
+        )
 
     def _own(self, key: str) -> float | None:
         """Return a number that is given, or that of the row, which is said; None where neither has one."""

@@ -14,6 +14,7 @@ from wearsim.drive.wrap_life import chain_band, chain_clock, chain_prior, wrap_o
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.mechanisms.wrap.drive import instead_of
+from wearsim.quantities import grouped
 from wearsim.readings.chain_log import ChainLog, read_chain_log
 from wearsim.readings.chain_readings import NO_GO, ChainReading
 from wearsim.readings.contradictions import (
@@ -177,7 +178,7 @@ def _state(case: Case, as_logged: Mapping[str, Case], log: ChainLog, limit: floa
         assumptions=(*_assumptions(log, band), *case.assumptions),
         warnings=(
             *contradiction_warnings(excluding),
-            *_warnings(log, posterior, band, lives),
+            *_warnings(case, log, posterior, band, lives),
             *case.warnings,
         ),
     )
@@ -243,7 +244,7 @@ def _assumptions(log: ChainLog, band: WearBand) -> Iterator[str]:
     if log.times_relubricated:
         yield (
             "the load does not change, and the chain on the drive is relubricated every "
-            f"{log.relubrications.mean_interval:.4g} h as before, instead of by [lubrication]"
+            f"{grouped(log.relubrications.mean_interval)} h as before, instead of by [lubrication]"
         )
     else:
         yield "load and lubrication do not change"
@@ -273,7 +274,7 @@ def _of_lengths(log: ChainLog) -> Iterator[str]:
 
 
 def _warnings(
-    log: ChainLog, posterior: FactorPosterior, band: WearBand, lives: tuple[float, ...]
+    case: Case, log: ChainLog, posterior: FactorPosterior, band: WearBand, lives: tuple[float, ...]
 ) -> Iterator[str]:
     yield from band_warning(posterior.nearest, band, JOINTS)
     if posterior.scale > 1.0:
@@ -283,7 +284,7 @@ def _warnings(
         )
     yield from log.time.warnings(log.readings[0].hours)
     of_which = f"chain {log.mounted}: " if log.mounted else ""
-    yield from (of_which + text for text in log.relubrications.warnings())
+    yield from (of_which + text for text in log.relubrications.warnings(case.lubrication))
     if lives[-1] <= log.today:
         yield f"{of_which}the limit is reached, by all that was read: replace the chain"
     elif lives[0] <= log.today:

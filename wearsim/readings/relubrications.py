@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import lubricants
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.part_life import case_clock
 from wearsim.errors import CaseError, Fault
-from wearsim.lubrication.model import LubricationInput, RunningWay
+from wearsim.lubrication.model import ENDLESS, LubricationInput, RunningWay, lasting_not_known
 from wearsim.quantities import grouped
 from wearsim.readings.dated_rows import CHAINS, NEW, DatedRows, ServiceTime
 
@@ -60,8 +61,10 @@ class RelubricationLog:
         """Keys of [lubrication] that say the same."""
         return {"at_hours": [*self.hours, self.to_come], "interval_hours": self.mean_interval}
 
-    def warnings(self) -> Iterator[str]:
-        """Say that a relubrication is overdue."""
+    def warnings(self, given: LubricationInput | None) -> Iterator[str]:
+        """Say that the log changes no wear of a case, and that a relubrication is overdue."""
+        if self.logged_interval and given is not None and given.lasts is ENDLESS and not given.first:
+            yield lasting_not_known(given.name, "this log")
         if self.logged_interval and self.is_overdue:
             since, before, then = (
                 grouped(hours) for hours in (self.today - self.last, self.logged_interval, self.mean_interval)
@@ -164,8 +167,16 @@ def _as_logged(case: Case | DriveCase, first: Case, log: RelubricationLog) -> Lu
     given = first.lubrication
     if given is None:
         text = (
-            f"{RELUBRICATION} needs [lubrication] in the case, with a lubricant and how long it lasts: give "
-            "them, or remove these rows"
+            f"{RELUBRICATION} needs [lubrication] in the case: add lubricant = 'manual' or 'greased' to it "
+            "(--set lubrication.lubricant=manual), or remove these rows"
+        )
+        raise _fault(log, "quantity", text)
+    row = lubricants().get(given.name)
+    if row is not None and row.supply != "applied":
+        text = (
+            f"{RELUBRICATION} needs a lubricant that is applied by hand, not lubrication.lubricant = "
+            f"{given.name!r}: make it 'manual' or 'greased' (--set lubrication.lubricant=manual), or remove "
+            "these rows"
         )
         raise _fault(log, "quantity", text)
     if given.phases:

@@ -176,7 +176,7 @@ def value_in(case: Case | DriveCase, key: str) -> Any:
     if not is_number(number) or not 0 < int(number) <= len(case.wheels):
         return None
     wheel = case.wheels[int(number) - 1]
-    if not wheel.parts:
+    if wheel.is_smooth:
         return value_at(case.inputs["sprocket"][int(number) - 1], name)
     return value_at(case.single_cases[wheel.parts[0]].inputs, f"sprocket.{name}")
 

@@ -11,6 +11,7 @@ from wearsim.runner.design import Design
 from wearsim.runner.shard import COLUMNS, Rows, Shard, life_columns, run_shard, shards
 from wearsim.runner.store import Store
 from wearsim.runner.workers import Workers
+from wearsim.wear.accuracy import EXCEEDS
 
 _AHEAD = 3
 """Shards that wait with every worker."""
@@ -55,6 +56,18 @@ def run_study(
                 "or give them more memory; what is finished is kept"
             )
     return _table(design, [done[first] for first in sorted(done)])
+
+
+def missed_tolerance(table: pd.DataFrame) -> str:
+    """Return how many cases of a study miss their tolerance and by how much; empty where none does."""
+    missed = table[table["warnings"].str.contains(EXCEEDS, regex=False)]
+    if missed.empty:
+        return ""
+    what = "misses its" if len(missed) == 1 else "miss their"
+    return (
+        f"{len(missed)} of {len(table)} cases {what} run.life_tolerance, with a stated error of up to "
+        f"{100.0 * missed['numerical_error'].max():.2g} %"
+    )
 
 
 def failures(table: pd.DataFrame) -> str:

@@ -267,14 +267,12 @@ def _scale(
 
 def _of_one(case: Case | DriveCase, sprocket: str | None) -> Case:
     """Return the case of the sprocket in the picture."""
-    cases = {} if isinstance(case, Case) else case.titled_cases()
-    if isinstance(case, Case) and sprocket is None:
-        return case
-    if sprocket in cases:
-        return cases[sprocket]
-    got = "" if sprocket is None else f" (got {sprocket!r})"
-    names = f"one of {', '.join(map(repr, cases))}" if cases else "leave its name out, the case has only one"
-    raise CaseError([Fault(f"must say which sprocket is in the picture: {names}{got}", "", case.name)])
+    if isinstance(case, DriveCase):
+        return case.titled_case(sprocket)
+    if sprocket is not None:
+        text = f"must be left out, as the case has only one (got {sprocket!r})"
+        raise CaseError([Fault(text, "sprocket", case.name)])
+    return case
 
 
 def _with_hours(

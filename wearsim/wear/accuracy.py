@@ -47,6 +47,10 @@ def grid_error(spacing: float, others: Iterable[tuple[float, float]]) -> float:
     return SAFETY * math.fsum(told)
 
 
+EXCEEDS = "exceeds the tolerance"
+"""What warnings say of an error that is larger than its tolerance."""
+
+
 def exceeds(error: float, tolerance: float) -> str:
     """Return in words that an error is larger than its tolerance, with digits enough to see it.
 
@@ -58,7 +62,7 @@ def exceeds(error: float, tolerance: float) -> str:
     'numerical error 0.01004 exceeds the tolerance 0.01'
     """
     digits = next(d for d in range(2, 18) if float(f"{error:.{d}g}") > tolerance)
-    return f"numerical error {error:.{digits}g} exceeds the tolerance {tolerance:g}"
+    return f"numerical error {error:.{digits}g} {EXCEEDS} {tolerance:g}"
 
 
 def depth_missed(x: Vector, y: Vector, depth: Vector) -> float:

@@ -15,7 +15,7 @@ from wearsim.chain.drive_layout import DriveLayout, layout_with_centre, layout_w
 from wearsim.chain.joint_pressure import joint_application
 from wearsim.chain.joint_wear import JointLaw
 from wearsim.chain.loop_layout import LoopLayout
-from wearsim.chain.service_conditions import LUBRICATIONS, shifts_in_words, shifts_of
+from wearsim.chain.service_conditions import LUBRICATIONS, STEADY, load_of, shifts_in_words, shifts_of
 from wearsim.chain.span_tension import catenary_tension, centrifugal_tension
 from wearsim.errors import GeometryError
 from wearsim.geometry.blank import gap_space
@@ -29,6 +29,7 @@ from wearsim.mechanisms.wrap.place_in_loop import (
     loop_loads,
     turning_factor,
 )
+from wearsim.quantities import grouped
 
 CENTRE_IN_PITCHES = 40.0
 SAG_PERCENT = 2.0
@@ -95,7 +96,7 @@ def wrapped_drive(
     if least is not None and least > slack:
         faults.add(
             "stop.min_slack_tension_N",
-            f"must not exceed the slack tension of the drive, {slack:.4g} N (got {least:g})",
+            f"must not exceed the slack tension of the drive, {grouped(slack)} N (got {least:g})",
         )
     return WrapDrive(
         outline=shape.outline,
@@ -156,22 +157,25 @@ def _service_factor(case: ChainRecord) -> float:
 
 
 def _joint_application_factor(case: ChainRecord) -> float:
-    """Return K_e, by default that of a steady load with the lubricant and the hours of the case."""
-    given = (case.tables.drive or DriveTable()).joint_application_factor
+    """Return K_e, by default that of the shocks of f1, the lubricant and the hours of the case."""
+    table = case.tables.drive or DriveTable()
+    given, shocks = table.joint_application_factor, table.service_factor or 1.0
     lubricant = (case.inputs.get("lubrication") or {}).get("lubricant")
-    lubrication = LUBRICATIONS.get(str(lubricant), "drip")
+    load, lubrication = load_of(shocks), LUBRICATIONS.get(str(lubricant), "drip")
     if given is None:
         shifts = shifts_of((case.inputs.get("service") or {}).get("hours_per_day") or _ONE_SHIFT)
-        factor = joint_application(lubrication=lubrication, shifts=shifts).factor
-        why = f"steady load, {lubrication} lubrication, {shifts_in_words(shifts)} a day; {_OF_PRESSURE}"
+        factor = joint_application(load, lubrication, shifts).factor
+        why = f"{load} by f1, {lubrication} lubrication, {shifts_in_words(shifts)} a day; {_OF_PRESSURE}"
         case.take("drive.joint_application_factor", factor, why)
         return factor
     case.assumptions.append(f"joint application factor {given:g}: {_OF_PRESSURE}")
-    least = joint_application(lubrication=lubrication).factor
-    if given < least and lubricant is not None:
+    causes = [f"lubricant {lubricant!r}"] if lubricant is not None else []
+    causes += [f"{load} (service_factor = {shocks:g})"] if load != STEADY else []
+    least = joint_application(load, lubrication).factor
+    if given < least and causes:
         case.warnings.append(
             f"drive.joint_application_factor = {given:g} is below the {least:g} that GOST practice gives "
-            f"for lubricant {lubricant!r} alone: raise it, or delete it to use that of a steady load"
+            f"for {' and '.join(causes)} alone: raise it, or delete it to use the default"
         )
     return given
 
@@ -253,8 +257,8 @@ def _tensions(
             "slack tension is used there"
         )
     case.assumptions.append(
-        f"tight strand {_range([block.tension for block in found], 6)} N, slack strand {slack:.4g} N, and "
-        f"{_range([block.centrifugal for block in found], 3)} N centrifugal tension in both, which "
+        f"tight strand {_range([block.tension for block in found], 6)} N, slack strand {grouped(slack)} N, "
+        f"and {_range([block.centrifugal for block in found], 3)} N centrifugal tension in both, which "
         "loads joints but not teeth"
     )
     strained = max(rated, key=lambda block: block.tension + block.centrifugal)
@@ -294,7 +298,8 @@ def _block(case: ChainRecord, chain: Chain, load: GivenLoad, slack: float, turni
 
 def _fault_slack(case: ChainRecord, key: str, tight: float, slack: float) -> None:
     case.faults.add(
-        key, f"the tight strand must pull more than the slack one, {slack:.4g} N (got {tight:.4g} N)"
+        key,
+        f"the tight strand must pull more than the slack one, {grouped(slack)} N (got {grouped(tight)} N)",
     )
 
 

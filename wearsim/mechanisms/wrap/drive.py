@@ -403,7 +403,7 @@ class WrapDrive(Drive):
         )
         return (
             f"the rollers must hold the chain, new and stretched by {100 * limits[1]:.3g} %, but with a "
-            f"slack tension of {self.slack:.4g} N the chain jumps: {remedy}"
+            f"slack tension of {grouped(self.slack)} N the chain jumps: {remedy}"
         )
 
     def rated_drive(self, case: Case, load: WrapLoad) -> RatedDrive:

@@ -32,6 +32,7 @@ from wearsim.kernels.wrap_equilibrium import (
     residual,
     solve_wrap,
 )
+from wearsim.quantities import grouped
 
 _PHASES = 9
 """Phases of a pitch, ends included, in which a chain is tried for jumping."""
@@ -282,7 +283,7 @@ class WrapMechanism:
         )
         return (
             f"wrap at an elongation of {100 * elongation:.3g} %, phase {phase:.3g}: the rollers must "
-            f"hold the chain with a slack tension of {self.pull.slack:.4g} N, but {what}: the chain "
+            f"hold the chain with a slack tension of {grouped(self.pull.slack)} N, but {what}: the chain "
             f"jumps; give a {remedy}"
         )
 

@@ -105,7 +105,7 @@ def _lock(found: DriveLife, place: Path) -> str:
     inputs: dict[str, Any] = copy.deepcopy(dict(found.drive.inputs))
     files = {one.name: one.case.input_files for one in found.drive.sprockets}
     for number, (wheel, table) in enumerate(zip(found.drive.wheels, inputs["sprocket"], strict=True), 1):
-        if not wheel.parts:
+        if wheel.is_smooth:
             continue
         own = files[wheel.parts[0]]
         for key in _FILES:

@@ -11,6 +11,7 @@ from wearsim.chain.loop_forces import LoopForces
 from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.wheels import DRIVER
 from wearsim.mechanisms.wrap.tooth_loads import ToothLoads
+from wearsim.quantities import grouped
 from wearsim.report.loads_table import loads_json, loads_table
 from wearsim.report.text_lines import answer_text, assumed, row
 
@@ -95,7 +96,9 @@ def loop_names(drive: DriveCase) -> list[str]:
 
 
 def _wheel_in_words(wheel: Mapping[str, Any]) -> str:
-    return f"{wheel['teeth']} teeth" if wheel["teeth"] else f"smooth, {wheel['smooth_diameter_mm']:.4g} mm"
+    return (
+        f"{wheel['teeth']} teeth" if wheel["teeth"] else f"smooth, {grouped(wheel['smooth_diameter_mm'])} mm"
+    )
 
 
 def layout_text(drive: DriveCase) -> str:
@@ -107,16 +110,16 @@ def layout_text(drive: DriveCase) -> str:
             row(
                 one["name"],
                 f"{_wheel_in_words(one)}, wrap angle {one['wrap_deg']:.1f} degrees, "
-                f"{one['teeth_in_mesh']:.1f} in mesh; shaft {one['shaft_load_N']:.4g} N at "
+                f"{one['teeth_in_mesh']:.1f} in mesh; shaft {grouped(one['shaft_load_N'])} N at "
                 f"{one['shaft_direction_deg']:.4g} degrees"
-                + (f", {abs(one['torque_N_m']):.4g} N m" if one["torque_N_m"] else ", idle"),
+                + (f", {grouped(abs(one['torque_N_m']))} N m" if one["torque_N_m"] else ", idle"),
             )
             for one in found["sprockets"]
         ),
         row(
             "Spans",
             "; ".join(
-                f"{one['from']} to {one['to']} {one['length_mm']:.4g} mm, {one['tension_N']:.4g} N"
+                f"{one['from']} to {one['to']} {grouped(one['length_mm'])} mm, {grouped(one['tension_N'])} N"
                 for one in found["spans"]
             ),
         ),

@@ -14,6 +14,7 @@ from wearsim.drive.wrap_life import wrap_of
 from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.geometry.profile_points import Vector
 from wearsim.lubrication.keys import SCHEDULES
+from wearsim.quantities import grouped
 from wearsim.readings.chain_readings import GAUGE
 from wearsim.runner.design import replaced
 from wearsim.runner.scatter import coefficient_key
@@ -139,7 +140,7 @@ class CaseFit:
                 *fit_warnings(
                     self.case, values, correlation, found, self.observations, self.freedom, self.options
                 ),
-                *self.time.log.warnings(),
+                *self.time.log.warnings(self.case.lubrication),
                 *warnings_of_runs(self.settled, self.parameters.predictions.numerical_error, parts),
             ),
         )
@@ -250,7 +251,7 @@ class CaseFit:
             least = profile_interval(self._problem(), found, 0, self.options.confidence)
             life = self.time.running(math.exp(least.low))
             text = (
-                f"must show wear, but go with none: the life is at least {life:.4g} h "
+                f"must show wear, but go with none: the life is at least {grouped(life)} h "
                 f"({100 * self.options.confidence:g} %); measure later or better"
             )
             raise CaseError([Fault(text, "value", self.file)])

@@ -9,6 +9,7 @@ from scipy.stats import chi2
 from wearsim.case.model import Case
 from wearsim.drive.wrap_life import chain_band
 from wearsim.geometry.profile_points import Vector
+from wearsim.quantities import grouped
 from wearsim.readings.chain_readings import GO, NO_GO
 from wearsim.readings.contradictions import (
     CHAIN,
@@ -78,8 +79,8 @@ def _conditions(case: Case, log: RelubricationLog) -> str:
     if log.hours:
         return (
             "the coefficients of lubricated contacts are constant over the whole life, the load stays as it "
-            f"was, and contacts are relubricated every {log.mean_interval:.4g} h as before, in place of what "
-            "[lubrication] says"
+            f"was, and contacts are relubricated every {grouped(log.mean_interval)} h as before, in place of "
+            "what [lubrication] says"
         )
     if case.lubrication is not None and not case.lubrication.steady:
         return (

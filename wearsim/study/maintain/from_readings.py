@@ -14,6 +14,7 @@ from wearsim.drive.maintenance import drive_prices, part_lives
 from wearsim.drive.part_life import simulate
 from wearsim.drive.replacement_rules import Prices
 from wearsim.errors import CaseError, Fault
+from wearsim.quantities import grouped
 from wearsim.readings.chain_state import ChainState, chain_state
 from wearsim.readings.teeth_as_read import TEETH_WORDS, Teeth, teeth_warning
 from wearsim.result.ends import CHAIN, PartEnd
@@ -91,7 +92,8 @@ def year_plan(
     parts = _parts(state, ends)
     prices = _of_all_chains(_prices(given), state)
     until = year_of_hours(state.case.inputs["service"]["hours_per_day"])
-    jobs = [*replacements(parts, until, prices), *_relubrications(state, until)]
+    replaced = replacements(parts, until, prices)
+    jobs = [*replaced, *_beside_new_chains(state, _relubrications(state, until), replaced)]
     return YearPlan(
         given=given,
         state=state,
@@ -133,8 +135,9 @@ def _ends(case: Case | DriveCase, progress: Progress) -> Mapping[str, PartEnd]:
         return {SPROCKET: _end(result.ends, (SPROCKET,), result.parts[SPROCKET].hours_run)}
     found = drive_life(case, progress).complete()
     lives = part_lives(found)
-    worn = [wheel for wheel in case.wheels if wheel.parts]
-    return {wheel.name: _end(found.ends, wheel.parts, lives[wheel.name].hours_run) for wheel in worn}
+    return {
+        wheel.name: _end(found.ends, wheel.parts, lives[wheel.name].hours_run) for wheel in case.worn_wheels
+    }
 
 
 def _end(ends: Iterable[PartEnd], parts: Sequence[str], hours: float) -> PartEnd:
@@ -192,16 +195,24 @@ def _relubrications(state: ChainState, until: float) -> list[Job]:
     return relubrications(first, every, until, given.application_cost)
 
 
+def _beside_new_chains(state: ChainState, jobs: Sequence[Job], replaced: Sequence[Job]) -> list[Job]:
+    """Return relubrications but those on the day of a new chain, which comes lubricated."""
+    now = state.log.machine
+    new = {state.day(now + job.hours) for job in replaced if CHAIN in job.parts}
+    return [job for job in jobs if state.day(now + job.hours) not in new]
+
+
 def _not_known(parts: tuple[PartNow, ...], until: float) -> Iterator[str]:
     """Say of which parts it is not known whether they last for the year."""
     for one in parts:
         if not one.worn_out and one.left < until:
+            run, left = grouped(one.life), grouped(one.left)
             yield (
-                f"{one.name} did not wear out in its run of {one.life:.4g} h, of which {one.left:.4g} h are "
-                "left: whether it lasts for the year is not known, a longer run.horizon_hours may show"
+                f"{one.name} did not wear out in its run of {run} h, of which {left} h are left: "
+                "whether it lasts for the year is not known, a longer run.horizon_hours may show"
             )
         if one.used < 0.0:
-            yield f"{one.name} is fitted only {-one.used:.4g} h after the last row of the log"
+            yield f"{one.name} is fitted only {grouped(-one.used)} h after the last row of the log"
 
 
 def _conventions(plan: YearPlan) -> Iterator[str]:

@@ -43,8 +43,8 @@ class ChainReadingsResult(DrawnAnswer):
     @property
     def headline(self) -> str:
         """The hours that are left, and their interval."""
-        low, _, middle, _, high = self.found.of("remaining_hours").values
-        return f"{grouped(float(middle))} h left to the chain (90 %: {low:.4g} to {high:.4g} h)"
+        low, _, middle, _, high = (grouped(float(one)) for one in self.found.of("remaining_hours").values)
+        return f"{middle} h left to the chain (90 %: {low} to {high} h)"
 
     @property
     def text(self) -> str:

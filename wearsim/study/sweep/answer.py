@@ -20,7 +20,7 @@ from wearsim.report.text_lines import counts_by_kind
 from wearsim.runner.in_threads import THREADS, Progress, run, silent
 from wearsim.runner.run_study import failures
 from wearsim.study.sweep.model import Sweep, load_sweep
-from wearsim.study.sweep.sheet import sweep_caution, sweep_json, sweep_text, write_sweep
+from wearsim.study.sweep.sheet import sweep_accuracy, sweep_caution, sweep_json, sweep_text, write_sweep
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -75,7 +75,8 @@ class SweepResult(DrawnAnswer):
         found = [
             f"{count} of {len(self.cases)} cases, such as: {text}" for text, count in counts_by_kind(texts)
         ]
-        return [*filter(None, [failures(self.cases), sweep_caution(self.study, self.cases)]), *found]
+        of_all = failures(self.cases), sweep_caution(self.study, self.cases), sweep_accuracy(self.cases)
+        return [*filter(None, of_all), *found]
 
     def pictures(self) -> "dict[str, Figure]":
         """Return curves, a heat map and parallel coordinates, as far as they suit the study.

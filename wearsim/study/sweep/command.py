@@ -32,12 +32,19 @@ def sweep(study: Path, as_json: bool, options: StudyOptions, settings: tuple[str
     table = run(loaded.design, options, identity, f"sweeping {loaded.title}")
     if table is None:
         return 0
-    from wearsim.study.sweep.sheet import sweep_caution, sweep_json, sweep_text, sweep_warning, write_sweep
+    from wearsim.study.sweep.sheet import (
+        sweep_accuracy,
+        sweep_caution,
+        sweep_json,
+        sweep_text,
+        sweep_warning,
+        write_sweep,
+    )
 
     for line in sweep_json(loaded, table) if as_json else [sweep_text(loaded, table)]:
         click.echo(line)
     of_cases = "" if as_json else sweep_warning(table)
-    for warning in filter(None, [sweep_caution(loaded, table), of_cases]):
+    for warning in filter(None, [sweep_caution(loaded, table), sweep_accuracy(table), of_cases]):
         warn(f"warning: {warning}")
     if options.out is not None:
         write_sweep(loaded, table, options.out)

@@ -15,6 +15,7 @@ from wearsim.quantities import grouped
 from wearsim.report.answer_table import AnswerTable, Column, records_of
 from wearsim.report.chain_first import chain_first, is_of_form
 from wearsim.report.study_files import save_figures, save_files
+from wearsim.runner.run_study import missed_tolerance
 from wearsim.runner.shard import life_columns
 from wearsim.study.sweep.model import Sweep
 
@@ -38,6 +39,12 @@ def sweep_caution(sweep: Sweep, table: pd.DataFrame) -> str:
         return ""
     text = chain_first(table.loc[table["error"] == "", "stop"])
     return text and f"{text}; compare sprocket_life_hours instead"
+
+
+def sweep_accuracy(table: pd.DataFrame) -> str:
+    """Return how many lives are known less exactly than was asked for; empty where none is."""
+    text = missed_tolerance(table[table["error"] == ""])
+    return text and f"{text}: numerical_error of each is in --json and cases.csv of --out"
 
 
 def sweep_warning(table: pd.DataFrame) -> str:

@@ -8,8 +8,9 @@ import numpy as np
 import pandas as pd
 
 from wearsim.geometry.profile_points import Vector
-from wearsim.quantities import percentile_shares
+from wearsim.quantities import grouped, percentile_shares
 from wearsim.report.text_lines import counts_by_kind
+from wearsim.runner.run_study import missed_tolerance
 from wearsim.study.uncertainty.cross_check import CrossCheck
 from wearsim.study.uncertainty.model import UncertaintyStudy
 from wearsim.study.uncertainty.percentiles import (
@@ -59,6 +60,28 @@ class UncertaintyAnswer:
         return tuple(percentile(hours, reached, share) for share in percentile_shares())
 
     @property
+    def error_text(self) -> str:
+        """How far the stated errors of the samples move the percentiles where some miss their tolerance.
+
+        A percentile rises with every life, so that the lives at the ends of their errors bound it.
+        """
+        missed = missed_tolerance(self.sound)
+        error = self.sound["numerical_error"].to_numpy(float)
+        ends = [
+            [
+                percentile(self.hours * factor, self.reached, share).hours
+                for factor in (1.0 - error, 1.0 + error)
+            ]
+            for share in percentile_shares()
+        ]
+        spans = ", ".join(
+            f"{one.name} is {grouped(low)} to {grouped(high)} h"
+            for one, (low, high) in zip(self.percentiles, ends, strict=True)
+            if one.known
+        )
+        return missed and f"{missed}" + (f"; with the errors of all, {spans}" if spans else "")
+
+    @property
     def ends_first(self) -> dict[str, float]:
         """Share of the samples in which a part of a whole drive ends first, by its name."""
         return {name: float((self.sound["stop"] == name).mean()) for name in self.study.design.parts}
@@ -102,6 +125,8 @@ def uncertainty_warnings(answer: UncertaintyAnswer) -> list[str]:
         )
     if not all(one.known for one in answer.percentiles):
         found.append("percentiles beyond run.horizon_hours are only bounds: raise it")
+    if answer.error_text:
+        found.append(answer.error_text)
     if answer.study.method == "sobol" and count & (count - 1):
         below = 1 << (count.bit_length() - 1)
         found.append(
