@@ -11,7 +11,7 @@ NO_FILE = "it is a pipe or a device, not a regular file"
 
 
 @pytest.fixture
-def pipe(tmp_path):
+def pipe(tmp_path, not_for_ever):
     """Return a pipe that nobody writes to: to open it would wait for ever."""
     path = tmp_path / "pipe"
     os.mkfifo(path)
