@@ -100,7 +100,7 @@ def sealed(content: bytes, label: str) -> bytes:
 
 
 def unsealed(path: Path, label: str) -> bytes | None:
-    """Return the content of a file sealed under a label; nothing where it is missing, damaged or another's."""
+    """Return the content of a file sealed under a label; nothing where there is none, or another."""
     try:
         whole = path.read_bytes() if path.is_file() else b""  # a pipe would be waited for
     except OSError:
