@@ -140,6 +140,18 @@ def _names(folder: Path) -> Iterator[str]:
 
 
 @contextlib.contextmanager
+def temporary_folder() -> Iterator[Path]:
+    """Give a folder that is gone afterwards, or raise `OutputError` where there is no place for one."""
+    try:
+        made = tempfile.TemporaryDirectory()
+    except OSError as error:
+        reason = error.strerror or error
+        raise OutputError(f"temporary folder: must be writable: {reason}: set TMPDIR to a folder") from None
+    with made as folder:
+        yield Path(folder)
+
+
+@contextlib.contextmanager
 def new_folder(folder: Path, force: bool) -> Iterator[Path]:
     """Give a temporary folder that takes its final name when all of it is written.
 

@@ -184,9 +184,7 @@ def _check_size(path: Path, text: str) -> None:
             message = f"must hold at most {most} {what}, holds about {count}: put long tables into CSV files"
             raise CaseError([Fault(message, "", str(path))])
     if found := _LONG_KEY.search(text):
-        message = (
-            f"tables and lists may be nested at most {_DEEPEST} deep, a key is deeper: shorten it"
-        )
+        message = f"tables and lists may be nested at most {_DEEPEST} deep, a key is deeper: shorten it"
         raise CaseError([Fault(message, "", str(path), text.count("\n", 0, found.start()) + 1)])
 
 

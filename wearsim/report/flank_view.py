@@ -1,7 +1,5 @@
 """What a result tells of its flanks: the case, the time of the life, columns at a time."""
 
-import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,6 +7,7 @@ import numpy as np
 from wearsim.case.model import Case
 from wearsim.drive.load_case import load_single
 from wearsim.errors import CaseError, Fault
+from wearsim.files import temporary_folder
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import GivenInput
 from wearsim.quantities import grouped
@@ -21,11 +20,11 @@ if TYPE_CHECKING:
 
 def case_of(result: WearResult) -> Case:
     """Return the case that a result was calculated for."""
-    with tempfile.TemporaryDirectory() as folder:
+    with temporary_folder() as folder:
         for name, text in result.input_files.items():
-            (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
-        tables = of_one_sprocket(with_files(result.inputs, folder))
-        return load_single(GivenInput("case.lock.toml", result.case, Path(folder), "", tables, tables))
+            (folder / name).write_text(text, encoding="utf-8", errors="surrogateescape")
+        tables = of_one_sprocket(with_files(result.inputs, str(folder)))
+        return load_single(GivenInput("case.lock.toml", result.case, folder, "", tables, tables))
 
 
 def life_time(result: WearResult) -> str:
