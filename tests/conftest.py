@@ -88,6 +88,20 @@ def write_page(terminalreporter, exitstatus, file, kind, writer):
     terminalreporter.write_line(f"{file}: {len(rows)} rows")
 
 
+@pytest.fixture
+def not_for_ever():
+    """Have a test fail that would wait for ever, as for a pipe that nobody writes to."""
+
+    def late(number, frame):
+        pytest.fail("waits for ever")
+
+    before = signal.signal(signal.SIGALRM, late)
+    signal.alarm(60)
+    yield
+    signal.alarm(0)
+    signal.signal(signal.SIGALRM, before)
+
+
 @pytest.fixture(scope="session")
 def research():
     """Return the importer of the scripts in research/."""

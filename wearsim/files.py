@@ -22,6 +22,9 @@ from wearsim.errors import OutputError
 MOST_BYTES = 50_000_000
 """Of a file that a user gives, if nothing else is said: some three million rows of two numbers."""
 
+MOST_ROWS = 2_000_000
+"""Of a table that a user gives: it takes some hundred megabytes in memory."""
+
 
 def check_given(path: Path, most: int = MOST_BYTES) -> None:
     """Look at a file that a user gives before it is opened.
@@ -61,7 +64,11 @@ def given_lines(path: Path) -> list[tuple[int, list[str]]]:
     OSError, ValueError, csv.Error
         It cannot be read, is no UTF-8 or no CSV.
     """
-    reader = csv.reader(io.StringIO(given_bytes(path).decode("utf-8-sig"), newline=""))
+    content = given_bytes(path)
+    rows = max(content.count(b"\n"), content.count(b"\r"))
+    if rows > MOST_ROWS:
+        raise OSError(errno.EFBIG, f"it has {rows} rows, {MOST_ROWS} are the most")
+    reader = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""))
     return [(reader.line_num, line) for line in reader]
 
 
@@ -130,6 +137,18 @@ def _names(folder: Path) -> Iterator[str]:
     for path in folder.rglob("*"):
         if path.is_symlink() or not path.is_dir() or not any(path.iterdir()):
             yield path.relative_to(folder).as_posix()
+
+
+@contextlib.contextmanager
+def temporary_folder() -> Iterator[Path]:
+    """Give a folder that is gone afterwards, or raise `OutputError` where there is no place for one."""
+    try:
+        made = tempfile.TemporaryDirectory()
+    except OSError as error:
+        reason = error.strerror or error
+        raise OutputError(f"temporary folder: must be writable: {reason}: set TMPDIR to a folder") from None
+    with made as folder:
+        yield Path(folder)
 
 
 @contextlib.contextmanager

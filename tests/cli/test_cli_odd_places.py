@@ -11,7 +11,7 @@ NO_FILE = "it is a pipe or a device, not a regular file"
 
 
 @pytest.fixture
-def pipe(tmp_path):
+def pipe(tmp_path, not_for_ever):
     """Return a pipe that nobody writes to: to open it would wait for ever."""
     path = tmp_path / "pipe"
     os.mkfifo(path)
@@ -110,3 +110,20 @@ def test_backend_of_windows_does_not_matter(cli, drive, tmp_path, monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "nonsense")
     done = cli("report", drive(), "--out", tmp_path / "sheet")
     assert (done.code, done.err) == (0, "")
+
+
+@pytest.mark.parametrize("arguments", [("life", "16b-20t-oiled", "--out", "run"), ("doctor",)])
+def test_working_folder_that_is_gone(cli, tmp_path, monkeypatch, arguments):
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    refused(cli(*arguments), "working folder: must exist, but is gone", "change to another folder")
+
+
+def test_no_temporary_folder(cli, drive, tmp_path, monkeypatch):
+    def none(*arguments, **names):
+        raise FileNotFoundError(2, "No usable temporary directory found")
+
+    monkeypatch.setattr("tempfile.TemporaryDirectory", none)
+    done = cli("report", drive(nodes=21), "--out", tmp_path / "sheet.html")
+    refused(done, "temporary folder: must be writable", "set TMPDIR to a folder")

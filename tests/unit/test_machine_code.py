@@ -4,6 +4,7 @@ Expected numbers are those of the same kernels in Python, or of a formula beside
 """
 
 import ctypes
+import itertools
 import os
 import subprocess
 import sys
@@ -77,6 +78,83 @@ def test_damaged_file_counts_as_none(tmp_path):
     for damaged in (content[:-1], content[1:], content.replace(b"code", b"c0de"), b""):
         path.write_bytes(damaged)
         assert kept(path) is None
+
+
+NUMBERS = {
+    "severity.severe_multiple": (2.0, 10.0),
+    "severity.t_gamma_rate": (30.0,),
+    "wrap_stage.area_of_work": (2.0, 0.1, 0.05, 3.0),
+    "gear_pair.turned_by_depth": (0.1, 1.0, 2.0, 0.3, 0.4, 1.2, 0.7),
+}
+"""Kernels of one cache, and what they are called with."""
+
+
+@pytest.fixture(scope="module")
+def made():
+    """Machine code of these kernels by their names."""
+    return {name: object_code(kernel_of(name)) for name in NUMBERS}
+
+
+@pytest.fixture
+def cache(tmp_path, monkeypatch, made):
+    """Kernels that nobody has called yet with their files in a full cache, and what shows each right."""
+    monkeypatch.setattr(compiled, "_folder", lambda: tmp_path)
+    # What stands for a compiler counts: a file that is not believed is made anew.
+    monkeypatch.setattr("wearsim.jit.object_code.object_code", lambda one: made[one.name])
+    for name, code in made.items():
+        keep(code, Kernel(kernel_of(name).function, "", False).object_file)
+
+    def right(name):
+        known = kernel_of(name)
+        again = Kernel(known.function, known.signature, False)
+        answer = again(*NUMBERS[name])
+        assert isinstance(again.compiled, MachineCode)
+        assert answer == known.function(*NUMBERS[name])
+        assert kept(again.object_file) == made[name]
+
+    files = {name: tmp_path / f"{name}{machine_code.file_ending()}" for name in NUMBERS}
+    return files, right
+
+
+@pytest.mark.parametrize(("one", "other"), [*itertools.permutations(NUMBERS, 2)])
+def test_files_that_are_swapped_are_compiled_anew(cache, one, other):
+    files, right = cache
+    files[other].write_bytes(files[one].read_bytes())
+    assert kept(files[other]) is None
+    right(one)
+    right(other)
+
+
+def test_file_of_other_sources_counts_as_none(tmp_path):
+    """The folder says of which sources the code is."""
+    for folder in ("new", "old"):
+        (tmp_path / folder).mkdir()
+    keep(b"machine code", tmp_path / "old" / "code.o")
+    (tmp_path / "old" / "code.o").rename(tmp_path / "new" / "code.o")
+    assert kept(tmp_path / "new" / "code.o") is None
+
+
+def test_damaged_files_are_compiled_anew(cache):
+    files, right = cache
+    for name, file in files.items():
+        whole = file.read_bytes()
+        for place in (0, 31, 32, 40, len(whole) // 2, len(whole) - 1):
+            file.write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+            right(name)
+            file.write_bytes(whole[:place])
+            right(name)
+
+
+@pytest.mark.usefixtures("not_for_ever")
+def test_pipe_and_device_in_place_of_a_file_are_not_waited_for(cache):
+    files, right = cache
+    for name, file in files.items():
+        file.unlink()
+        os.mkfifo(file)
+        right(name)
+        file.unlink()
+        file.symlink_to("/dev/zero")
+        right(name)
 
 
 def test_file_that_cannot_be_written_is_left_out(tmp_path):

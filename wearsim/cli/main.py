@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import traceback
+from pathlib import Path
 from types import FrameType
 
 import click
@@ -86,6 +87,7 @@ def main() -> None:
             use_own_bash()
             wearsim_command.main(prog_name="wearsim")
         _check_environment()
+        _check_working_folder()
         # Not click's own main: it turns a closed pipe into exit code 1.
         with wearsim_command.make_context("wearsim", sys.argv[1:], color=uses_colour()) as context:
             code = wearsim_command.invoke(context)
@@ -115,6 +117,15 @@ def _check_environment() -> None:
         if value and not (value.isascii() and value.isdigit() and int(value) >= least):
             message = f"must be a whole number of at least {least} (got {value!r}): unset it"
             raise CaseError([Fault(message, "", f"environment variable {name}")])
+
+
+def _check_working_folder() -> None:
+    """Raise where the folder that the process is in has been removed: no name in it leads anywhere."""
+    try:
+        Path.cwd()
+    except OSError as error:
+        message = f"must exist, but is gone ({error.strerror}): change to another folder"
+        raise CaseError([Fault(message, "", "working folder")]) from None
 
 
 def _interrupted() -> int:

@@ -1,6 +1,7 @@
 """An input file or a mapping with overrides, before anything is checked."""
 
 import copy
+import errno
 import re
 import sys
 import tomllib
@@ -138,17 +139,27 @@ STDIN = Path("-")
 _MOST_BYTES = 2_000_000
 """Of a case: more than any has, and little enough to be read at once."""
 
+_MOST_SIGNS = {"=": (5_000, "keys"), ",": (20_000, "values in lists")}
+"""How often what stands for keys and for values may stand in a case: a hundred times as often as in any."""
+
 
 @cache
 def stdin_bytes() -> bytes:
-    """Return all of standard input, which can be read only once."""
-    return sys.stdin.buffer.read()
+    """Return standard input, which can be read only once, no further than tells that it is too large."""
+    return sys.stdin.buffer.read(_MOST_BYTES + 1)
+
+
+def _stdin() -> bytes:
+    content = stdin_bytes()
+    if len(content) > _MOST_BYTES:
+        raise OSError(errno.EFBIG, f"it has more than {_MOST_BYTES / 1e6:.3g} MB")
+    return content
 
 
 def text_of(path: Path) -> str:
     """Return the text of a file, or what is on standard input."""
     try:
-        return (stdin_bytes() if path == STDIN else given_bytes(path, _MOST_BYTES)).decode("utf-8-sig")
+        return (_stdin() if path == STDIN else given_bytes(path, _MOST_BYTES)).decode("utf-8-sig")
     except OSError as error:
         similar = similar_case(path)
         hint = f"; did you mean the shipped case {similar!r}?" if similar else ""
@@ -162,7 +173,23 @@ _DECIMAL_COMMA = re.compile(r"=\s*([-+]?\d+),(\d+)\s*(?:#.*)?$")
 """End of a line whose value is a number with a decimal comma."""
 
 
+_LONG_KEY = re.compile(rf"(?<![\w\"'-])(?:[\w\"'-]+[ \t]*\.[ \t]*){{{_DEEPEST},}}[\w\"'-]")
+"""A dotted key of more parts than tables may be deep, which take long to make."""
+
+
+def _check_size(path: Path, text: str) -> None:
+    """Raise where a text has so many keys or values that it would take long and much memory to read."""
+    for sign, (most, what) in _MOST_SIGNS.items():
+        if (count := text.count(sign)) > most:
+            message = f"must hold at most {most} {what}, holds about {count}: put long tables into CSV files"
+            raise CaseError([Fault(message, "", str(path))])
+    if found := _LONG_KEY.search(text):
+        message = f"tables and lists may be nested at most {_DEEPEST} deep, a key is deeper: shorten it"
+        raise CaseError([Fault(message, "", str(path), text.count("\n", 0, found.start()) + 1)])
+
+
 def _parsed(path: Path, text: str) -> dict[str, Any]:
+    _check_size(path, text)
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

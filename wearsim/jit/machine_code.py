@@ -1,8 +1,8 @@
 """Machine code of kernels: kept as object files, loaded by LLVM alone and called by their addresses.
 
 numba takes longer to load than a life takes to run, and none of it is needed to call what it once compiled.
-A file holds the hash of its code, then the code. Its name carries the processor and all settings of numba,
-so that code never runs on another kind of processor than it was made for.
+A file holds a hash of its code and of its own name, then the code. The name carries the kernel, the processor
+and all settings of numba, that of the folder the sources: code runs only as what it was made for.
 """
 
 import contextlib
@@ -86,23 +86,32 @@ def keep(code: bytes, path: Path) -> None:
     """Write an object file, or none on a full disk; renamed, so that others never see a part of it."""
     with contextlib.suppress(OSError), tempfile.TemporaryDirectory(dir=path.parent) as folder:
         beside = Path(folder) / path.name
-        beside.write_bytes(sealed(code))
+        beside.write_bytes(sealed(code, _label(path)))
         os.replace(beside, path)
 
 
-def sealed(content: bytes) -> bytes:
-    """Return what a file holds that `kept` knows to be whole: the content after its hash."""
-    return hashlib.sha256(content).digest() + content
+def _label(path: Path) -> str:
+    return f"{path.parent.name}/{path.name}"
 
 
-def kept(path: Path) -> bytes | None:
-    """Return the sealed content of a file, or nothing where there is none or it is damaged."""
+def sealed(content: bytes, label: str) -> bytes:
+    """Return what a file holds that `unsealed` knows to be whole and its own: the content after a hash."""
+    return hashlib.sha256(label.encode() + b"\0" + content).digest() + content
+
+
+def unsealed(path: Path, label: str) -> bytes | None:
+    """Return the content of a file sealed under a label; nothing where there is none, or another."""
     try:
-        whole = path.read_bytes()
+        whole = path.read_bytes() if path.is_file() else b""  # a pipe would be waited for
     except OSError:
         return None
     content = whole[_HASH:]
-    return content if sealed(content) == whole else None
+    return content if sealed(content, label) == whole else None
+
+
+def kept(path: Path) -> bytes | None:
+    """Return the machine code that `keep` has written into this very file, or nothing."""
+    return unsealed(path, _label(path))
 
 
 class MachineCode:

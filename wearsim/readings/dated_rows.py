@@ -2,7 +2,6 @@
 
 import csv
 import math
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -12,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.errors import CaseError, Fault
-from wearsim.files import given_text
+from wearsim.files import given_text, temporary_folder
 from wearsim.input.csv_tables import header_faults
 from wearsim.quantities import grouped
 from wearsim.readings.day_format import iso_days
@@ -220,8 +219,8 @@ def readings_file(
     import pandas as pd
 
     table = readings if isinstance(readings, pd.DataFrame) else pd.DataFrame(list(readings))
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / f"{_NAME}.csv"
+    with temporary_folder() as folder:
+        file = folder / f"{_NAME}.csv"
         _with_whole_paths(table).to_csv(file, index=False)
         try:
             yield file

@@ -1,19 +1,18 @@
 """What a result tells of its flanks: the case, the time of the life, columns at a time."""
 
-import tempfile
-from collections.abc import Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wearsim.case.model import Case
 from wearsim.drive.load_case import load_single
 from wearsim.errors import CaseError, Fault
+from wearsim.files import temporary_folder
 from wearsim.geometry.profile_points import Vector
+from wearsim.input.document import GivenInput
 from wearsim.quantities import grouped
 from wearsim.result import Life, WearResult
-from wearsim.result.folder import with_files
+from wearsim.result.folder import of_one_sprocket, with_files
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -21,18 +20,11 @@ if TYPE_CHECKING:
 
 def case_of(result: WearResult) -> Case:
     """Return the case that a result was calculated for."""
-    with tempfile.TemporaryDirectory() as folder:
+    with temporary_folder() as folder:
         for name, text in result.input_files.items():
-            (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
-        return load_single(_of_one_sprocket(with_files(result.inputs, folder)))
-
-
-def _of_one_sprocket(inputs: Mapping[str, Any]) -> dict[str, Any]:
-    """Return tables without what a block of the duty says of other sprockets of the drive."""
-    own = dict(inputs)
-    if isinstance(own.get("duty"), list):
-        own["duty"] = [{k: v for k, v in block.items() if k != "power_share"} for block in own["duty"]]
-    return own
+            (folder / name).write_text(text, encoding="utf-8", errors="surrogateescape")
+        tables = of_one_sprocket(with_files(result.inputs, str(folder)))
+        return load_single(GivenInput("case.lock.toml", result.case, folder, "", tables, tables))
 
 
 def life_time(result: WearResult) -> str:

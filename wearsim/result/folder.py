@@ -2,7 +2,7 @@
 
 import copy
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, fields
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -18,6 +18,7 @@ from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.quantities import quantities
 from wearsim.result.lives import Life, LimitState, LowerBound
 from wearsim.result.second_opinions import read_opinions
+from wearsim.result.stored_values import check_flank, check_history, check_inputs, check_values
 
 SCHEMA_VERSION = 1
 
@@ -114,7 +115,7 @@ def read_result(folder: Path) -> dict[str, Any]:
 def _no_result(folder: Path, why: str) -> OutputError:
     return OutputError(
         f"{folder}: must be the folder of a result (result.json, case.lock.toml, environment.json, "
-        f"history.csv, flank.csv): {why}"
+        f"history.csv, flank.csv): {why}: run its case again"
     )
 
 
@@ -144,13 +145,18 @@ def _stored(folder: Path) -> dict[str, Any]:
         lock = tomllib.loads(given_text(folder / "case.lock.toml"))
     except ValueError as error:
         raise ValueError(f"case.lock.toml is not readable TOML: {error}") from None
+    check_values("result.json", stored)
+    mechanism = mechanism_of(lock)
+    check_inputs("case.lock.toml", of_one_sprocket(lock), mechanism)
     inputs = with_files(lock, "")
-    mechanism = mechanism_of(inputs)
     files = {name: given_text(folder / _INPUTS / name, "surrogateescape") for name in _named(inputs)}
-    history = _read_columns(folder / "history.csv", mechanism.history)
-    flank = _read_columns(folder / "flank.csv", mechanism.flank)
+    history = _read_columns(folder / "history.csv", mechanism.history, check_history)
+    flank = _read_columns(folder / "flank.csv", mechanism.flank, check_flank)
     found = fields_of_result(stored, inputs, files, history, flank)
-    return {**found, "environment": _json(folder / "environment.json")}
+    environment = _json(folder / "environment.json")
+    if not all(isinstance(version, str) for version in environment.values()):
+        raise ValueError("environment.json: must hold texts")
+    return {**found, "environment": environment}
 
 
 def fields_of_result(
@@ -222,6 +228,14 @@ def with_files(inputs: Mapping[str, Any], folder: str) -> dict[str, Any]:
     return moved
 
 
+def of_one_sprocket(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """Return tables without what a block of the duty says of other sprockets of the drive."""
+    own = dict(inputs)
+    if isinstance(own.get("duty"), list):
+        own["duty"] = [{k: v for k, v in block.items() if k != "power_share"} for block in own["duty"]]
+    return own
+
+
 def file_paths(tables: Mapping[str, Any]) -> list[tuple[str, ...]]:
     """Return where the inputs name files: table and key, between them the number of one of several tables.
 
@@ -250,7 +264,9 @@ def _write_json(path: Path, value: Mapping[str, Any]) -> None:
     path.write_text(text + "\n", encoding="utf-8")
 
 
-def _read_columns(path: Path, least: tuple[str, ...]) -> dict[str, Vector]:
+def _read_columns(
+    path: Path, least: tuple[str, ...], check: Callable[[str, Mapping[str, Vector]], None]
+) -> dict[str, Vector]:
     """Columns of a table by the names in its head: those that it has at least, and any other quantity."""
     head, _, body = given_text(path).partition("\n")
     # Twice, as two empty cells beside each other share a comma.
@@ -262,6 +278,7 @@ def _read_columns(path: Path, least: tuple[str, ...]) -> dict[str, Vector]:
         raise ValueError(f"{path.name} must hold rows of {', '.join(least)}")
     table = np.loadtxt(rows, delimiter=",", comments=None, ndmin=2)
     columns = dict(zip(names, np.ascontiguousarray(table.T), strict=True))
+    check(path.name, columns)
     return {
         name: cells.astype(int) if name in ("node", "gap_kind") else cells for name, cells in columns.items()
     }

@@ -22,7 +22,7 @@ import platformdirs
 import wearsim
 from wearsim.case.model import Case
 from wearsim.files import write_file
-from wearsim.jit.machine_code import file_ending, kept, sealed
+from wearsim.jit.machine_code import file_ending, sealed, unsealed
 from wearsim.result.folder import fields_of_result, stored_result, with_files
 from wearsim.result.wear_result import WearResult, environment
 
@@ -167,7 +167,7 @@ def _add(update: Callable[[bytes], None], value: Any) -> None:
 
 def _written(result: WearResult, key: str) -> bytes:
     """Return a result as the content of a file; its inputs are those of the case."""
-    stored = {**stored_result(vars(result), result.summary()), "key": key, "environment": result.environment}
+    stored = {**stored_result(vars(result), result.summary()), "environment": result.environment}
     columns = {
         f"{table}.{name}": values
         for table in _TABLES
@@ -177,12 +177,12 @@ def _written(result: WearResult, key: str) -> bytes:
     np.savez_compressed(
         file, result=np.array(json.dumps(stored, allow_nan=False)), allow_pickle=False, **columns
     )
-    return sealed(file.getvalue())
+    return sealed(file.getvalue(), key)
 
 
 def _read(file: Path, key: str, case: Case) -> WearResult | None:
     """Return the result in a file; None where there is none, or the file is not whole or of another run."""
-    content = kept(file)
+    content = unsealed(file, key)
     if content is None:
         return None
     tables: dict[str, dict[str, Any]] = {table: {} for table in _TABLES}
@@ -192,8 +192,6 @@ def _read(file: Path, key: str, case: Case) -> WearResult | None:
             table, _, name = entry.partition(".")
             if name:
                 tables[table][name] = entries[entry]
-    if stored["key"] != key:
-        return None
     with contextlib.suppress(OSError):
         os.utime(file)
     inputs = with_files(case.inputs, "")

@@ -1,17 +1,16 @@
 """A part of a study that is run and stored as a whole; all that a worker needs to run it."""
 
 import re
-import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 from wearsim.drive.batch_lives import CaseLife
 from wearsim.drive.load_case import load_case
 from wearsim.drive.simulate import simulate_many
 from wearsim.errors import StudyError, WearsimError
+from wearsim.files import temporary_folder
 from wearsim.result import Life
 from wearsim.result.folder import with_files
 from wearsim.runner.design import Design, Engine, content_hash, engine
@@ -90,10 +89,10 @@ def run_shard(shard: Shard) -> Rows:
 
 def loaded_cases(design: Design) -> list[Any]:
     """Return the cases of a study, or of a part of it; in place of one that is wrong its error."""
-    with tempfile.TemporaryDirectory() as folder:
+    with temporary_folder() as folder:
         for name, text in design.files.items():
-            (Path(folder) / name).write_text(text, encoding="utf-8", errors="surrogateescape")
-        return [_loaded(design, index, folder) for index in range(len(design.rows))]
+            (folder / name).write_text(text, encoding="utf-8", errors="surrogateescape")
+        return [_loaded(design, index, str(folder)) for index in range(len(design.rows))]
 
 
 def _loaded(design: Design, index: int, folder: str) -> Any:

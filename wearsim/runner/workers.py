@@ -1,14 +1,17 @@
 """Where shards run: threads of this process, other processes, or a Dask cluster."""
 
 import json
+import os
 import re
 import signal
 import socket
+import threading
 from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
+from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -55,7 +58,7 @@ class Processes:
     def open(self) -> Iterator[tuple[Executor, int]]:
         """Give an executor and the number of its workers."""
         context = get_context("spawn")
-        with ProcessPoolExecutor(self.count, context, initializer=_ignore_interrupts) as pool:
+        with ProcessPoolExecutor(self.count, context, initializer=_obey_parent) as pool:
             with _interrupts_blocked():
                 for _ in range(self.count):
                     pool.submit(int)
@@ -75,9 +78,18 @@ def _interrupts_blocked() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _ignore_interrupts() -> None:
-    """Leave it to the parent to end on Ctrl-C, after the shards that are under way."""
+def _obey_parent() -> None:
+    """Leave it to the parent to end on Ctrl-C, after the shards that are under way, and never outlive it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """End this process when its parent has been killed, by whatever signal."""
+    parent = parent_process()
+    assert parent is not None
+    wait([parent.sentinel])
+    os._exit(1)
 
 
 @dataclass(frozen=True)

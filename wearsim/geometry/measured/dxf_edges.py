@@ -41,6 +41,9 @@ _FARTHEST = 1e6
 _MOST_BYTES = 20_000_000
 """Of a drawing: of one sprocket, it has some hundred kilobytes."""
 
+_MOST_CIRCLES, _MOST_EDGES, _MOST_AT_A_POINT = 1000, 20_000, 200
+"""Whole circles, all edges, and edges that end at one point: far more than the drawing of a wheel has."""
+
 _UNREADABLE = (
     *(OSError, ValueError, LookupError, TypeError, AttributeError),
     *(ArithmeticError, RecursionError, AssertionError, EOFError, struct.error),
@@ -116,6 +119,9 @@ def _unit(document: "Drawing", path: Path, notes: list[str]) -> float:
 
 def _entities(document: "Drawing", path: Path, layer: str | None) -> "list[DXFGraphic]":
     everything = list(document.modelspace())
+    circles = sum(entity.dxftype() == "CIRCLE" for entity in everything)
+    _check_count(path, circles, _MOST_CIRCLES, "circles")
+    _check_count(path, len(everything), _MOST_EDGES, "edges")
     if layer is None:
         return everything
     chosen = [e for e in everything if e.dxf.get("layer", "0").lower() == layer.lower()]
@@ -164,7 +170,17 @@ def _flattened(
             f"{path}: lines, arcs, circles, ellipses, splines or polylines must be in the model space, "
             f"but there are none (found: {found or 'nothing'}): explode blocks and export the outline"
         )
+    ends = Counter(tuple(end) for points in edges for end in np.round(points[[0, -1]], 3).tolist())
+    _check_count(path, max(ends.values()), _MOST_AT_A_POINT, "edges that end at one point")
     return edges
+
+
+def _check_count(path: Path, count: int, most: int, what: str) -> None:
+    if count > most:
+        raise GeometryError(
+            f"{path}: must be the outline of one wheel, with at most {most} {what}, but has {count}: "
+            "export the outline alone"
+        )
 
 
 def _points(entity: "DXFGraphic", factor: float, sagitta: float) -> Vector:

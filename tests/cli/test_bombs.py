@@ -1,0 +1,64 @@
+"""Inputs that are small on the disk and would take minutes or gigabytes: refused by their size, at once."""
+
+import math
+
+import pytest
+
+from wearsim.command.options import BAD_INPUT
+from wearsim.errors import GeometryError
+from wearsim.files import given_lines
+from wearsim.geometry.measured.dxf_edges import edges_from_dxf
+
+pytestmark = pytest.mark.usefixtures("not_for_ever")
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        (".".join(["a"] * 20_000) + " = 1", "nested at most 20 deep"),
+        ("\n".join(f"k{number} = 1" for number in range(150_000)), "at most 5000 keys, holds about 150"),
+        ("[[duty]]\nhours = 1\nspeed_rpm = 50\ntension_N = 900\n" * 10_000, "at most 5000 keys"),
+        ("list = [" + "1," * 900_000 + "]", "at most 20000 values in lists"),
+    ],
+    ids=["dotted key", "keys", "duty blocks", "list"],
+)
+def test_case(cli, drive, more, words):
+    path = drive()
+    path.write_text(path.read_text("utf-8") + more, "utf-8")
+    done = cli("check", path)
+    assert done.code == BAD_INPUT
+    assert words in done.err
+
+
+def test_table_of_millions_of_rows(tmp_path):
+    (tmp_path / "long.csv").write_bytes(b"x_mm,y_mm\n" + b"1,2\n" * 3_000_000)
+    with pytest.raises(OSError, match="it has 3000001 rows, 2000000 are the most"):
+        given_lines(tmp_path / "long.csv")
+
+
+def entities(kind, rows):
+    """Text of a DXF file with entities of a kind, each by its numbers after their codes."""
+    body = "".join(
+        f"0\n{kind}\n8\n0\n" + "".join(f"{code}\n{value}\n" for code, value in row.items()) for row in rows
+    )
+    return f"0\nSECTION\n2\nENTITIES\n{body}0\nENDSEC\n0\nEOF\n"
+
+
+@pytest.mark.parametrize(
+    ("kind", "rows", "words"),
+    [
+        ("CIRCLE", [{10: i, 20: 0, 40: 0.7} for i in range(1001)], "at most 1000 circles, but has 1001"),
+        (
+            "LINE",
+            [{10: 0, 20: 0, 11: 50 * math.cos(i), 21: 50 * math.sin(i)} for i in range(3000)],
+            "at most 200 edges that end at one point, but has 3000",
+        ),
+        ("LINE", [{10: i, 20: 0, 11: i, 21: 1} for i in range(20_001)], "at most 20000 edges, but has 20001"),
+    ],
+    ids=["circles", "junction", "lines"],
+)
+def test_drawing(tmp_path, kind, rows, words):
+    path = tmp_path / "many.dxf"
+    path.write_text(entities(kind, rows), "utf-8")
+    with pytest.raises(GeometryError, match=words):
+        edges_from_dxf(path, None, 0.01, [])
