@@ -113,7 +113,7 @@ def pages(tmp_path_factory):
     """A site of two pages by the configuration, templates and styles of the real one."""
     pytest.importorskip("furo", reason="furo is not installed")
     folder = tmp_path_factory.mktemp("pages")
-    front = FRONT.replace("WORDS", "`" + "w" * 200 + "`").replace("LINE", "a + " * 50 + "a")
+    front = FRONT.replace("WORDS", "w" * 200).replace("LINE", "a + " * 50 + "a")
     (folder / "wide.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="700" height="9"/>')
     (folder / "index.md").write_text(front)
     (folder / "other.md").write_text("# Other\n")
