@@ -176,7 +176,8 @@ class Picture(Directive):
         env: BuildEnvironment = self.state.document.settings.env
         page = Path(env.doc2path(env.docname))
         uri = Path(os.path.relpath(file, page.parent)).as_posix()
-        return [nodes.image(uri=uri, alt=" ".join(self.content), classes=["example"])]
+        image = nodes.image(uri=uri, alt=" ".join(self.content), classes=["example"])
+        return [nodes.container("", image, classes=["drawing"])]
 
 
 class LivePage(Directive):

@@ -102,6 +102,8 @@ LINE
 
 $$LINE$$
 
+![a wide picture](wide.svg)
+
 <table><thead><tr><th></th><th>life_hours</th></tr></thead><tr><th>0</th><td>1</td></tr></table>
 """
 
@@ -111,7 +113,8 @@ def pages(tmp_path_factory):
     """A site of two pages by the configuration, templates and styles of the real one."""
     pytest.importorskip("furo", reason="furo is not installed")
     folder = tmp_path_factory.mktemp("pages")
-    front = FRONT.replace("WORDS", "`" + "w" * 200 + "`").replace("LINE", "a + " * 50 + "a")
+    front = FRONT.replace("WORDS", "w" * 200).replace("LINE", "a + " * 50 + "a")
+    (folder / "wide.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="700" height="9"/>')
     (folder / "index.md").write_text(front)
     (folder / "other.md").write_text("# Other\n")
     build = [sys.executable, "-m", "sphinx", "-q", "-W", "-c", DOCS, folder, folder / "html"]
@@ -135,12 +138,27 @@ def test_axe_finds_nothing(page, pages, width, scheme):
 def test_what_is_too_wide_scrolls_by_keys(page, pages):
     page.set_viewport_size({"width": 390, "height": 900})
     page.goto((pages / "index.html").as_uri())
-    places = page.locator("pre, .table-wrapper, .formula")
+    places = page.locator("pre, .table-wrapper, .formula, p:has(> img)")
     page.wait_for_selector("pre[tabindex='0']")
-    assert [place.get_attribute("tabindex") for place in places.all()] == ["0", "0", "0"]
+    assert [place.get_attribute("tabindex") for place in places.all()] == ["0"] * 4
     page.locator("pre").focus()
     page.keyboard.press("ArrowRight")
     page.wait_for_function("document.querySelector('pre').scrollLeft > 0")
+
+
+@pytest.mark.parametrize("width", [390, 1440])
+def test_a_page_is_as_wide_as_its_window(page, pages, width):
+    page.set_viewport_size({"width": width, "height": 900})
+    page.goto((pages / "index.html").as_uri())
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_a_picture_keeps_its_size_on_a_telephone(page, pages):
+    """Letters of 13 px stay so: a picture of 700 px scrolls in its place."""
+    page.set_viewport_size({"width": 390, "height": 900})
+    page.goto((pages / "index.html").as_uri())
+    assert page.locator("article img").bounding_box()["width"] == 700
+    assert page.locator("p:has(> img)").bounding_box()["width"] <= 390
 
 
 class _Silent(SimpleHTTPRequestHandler):

@@ -58,6 +58,20 @@ def test_a_sheet_says_nothing_asks_for_nothing_and_fits(watched, sheets, kind, w
 
 
 @pytest.mark.parametrize("kind", KINDS)
+def test_a_telephone_shows_cards_with_the_verdict_first_and_nothing_cut(watched, sheets, kind):
+    watched.set_viewport_size({"width": 390, "height": 900})
+    shown(watched, sheets, kind)
+    cards = watched.locator(".scroll:has(> .cards)").all()
+    assert len(cards) > 3
+    assert all(card.evaluate("one => one.scrollWidth <= one.clientWidth") for card in cards)
+    verdict = watched.locator("#ratings tbody td").first
+    assert verdict.get_attribute("data-label") == "verdict"
+    assert verdict.bounding_box()["x"] < 30
+    letters = watched.locator("#layout svg text").first
+    assert letters.evaluate("one => parseFloat(getComputedStyle(one).fontSize) * one.getScreenCTM().a") >= 9
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_sheet_prints_on_four_pages_with_nothing_cut(watched, sheets, kind):
     shown(watched, sheets, kind)
     pdf = watched.pdf(format="A4", prefer_css_page_size=True)

@@ -237,7 +237,7 @@ def test_what_is_there_stays(cli, drive, tmp_path):
 def test_settings_change_cases_only(cli, drive, tmp_path):
     out = tmp_path / "out"
     assert cli("report", drive(), "--out", out, "--set", "run.horizon_hours=50").code == 0
-    assert "&gt; 50\u00a0h" in (out / "index.html").read_text(encoding="utf-8")
+    assert "&gt;\u00a050\u00a0h" in (out / "index.html").read_text(encoding="utf-8")
     cli("life", drive(), "--out", tmp_path / "run")
     done = cli("report", tmp_path / "run", "--out", tmp_path / "x", "--set", "title=x")
     assert done.code == 2

@@ -82,6 +82,19 @@ def test_lights_of_ratings(value, at_least, word):
     assert word in shown and "plate fatigue" in shown
 
 
+def test_a_rating_that_only_informs_is_no_alarm():
+    elsewhere = "for information, the table is for GOST 13568 chains"
+    one = RatingFinding("joint pressure", 70.9, 32.7, "MPa", "GOST practice", elsewhere)
+    plates = RatingFinding("plate fatigue", 4.2, 4.6, "kW", "ANSI B29.1, H1")
+    with Client(page("/ratings")) as client:
+        rating_list([plates, one])
+        lights = [found for found in client.elements.values() if "ws-light" in found.classes]
+    assert [(found.text, found.props["data-light"]) for found in lights] == [
+        ("near", "near"),
+        ("outside (for information)", "informs"),
+    ]
+
+
 def test_sliders_are_of_plain_numbers_only():
     drive = {"sprocket": [{"name": "motor", "teeth": 9}, {"teeth": 57}, {"teeth": 20}], "load": {}}
     assert [(knob.words, knob.around) for knob in knobs(drive)] == [

@@ -15,7 +15,7 @@ Box = tuple[float, float, float, float]
 _MARGIN = 0.04
 """Free edge around a sketch, as a fraction of its width."""
 
-_TEXT = 1.0 / 34.0
+_TEXT = 1.0 / 32.0
 """Height of letters over the width of a sketch."""
 
 

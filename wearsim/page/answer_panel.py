@@ -1,12 +1,12 @@
 """The answer: faults, lives, ratings, margins, pictures, and what all of it rests on."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from markupsafe import Markup
 from nicegui import ui
 
-from wearsim.chain.rating_findings import RATINGS, RatingFinding
+from wearsim.chain.rating_findings import RATINGS, RatingFinding, deciding
 from wearsim.page.answers import (
     Answered,
     DriveAnswer,
@@ -211,17 +211,19 @@ def light(one: RatingFinding) -> str:
     return "near" if one.used >= _NEAR else "within"
 
 
-def rating_list(ratings: Iterable[RatingFinding]) -> None:
+def rating_list(ratings: Sequence[RatingFinding]) -> None:
     """Add every rating with its light, how much of its limit is used, and both numbers."""
     heading("Ratings")
+    judging = deciding(ratings)
     with ui.element("dl").classes("ws-margins"):
         for one in ratings:
             text_element("dt", one.name)
             sign = "≥" if one.at_least else "≤"
             text = f"{grouped(one.value)} {sign} {grouped(one.limit)} {one.unit}".rstrip()
             if word := light(one):
+                said, colour = (word, word) if one in judging else (f"{word} (for information)", "informs")
                 with used_part(one.name, one.used, text):
-                    ui.label(word).classes("ws-light").props(f"data-light={word}")
+                    ui.label(said).classes("ws-light").props(f"data-light={colour}")
             else:
                 text_element("dd", f"{text}; it defines the life and is no rating")
 

@@ -11,6 +11,12 @@ _WIDTH = 100
 _LABEL = 13
 
 _GROUP = re.compile(r"(?<=\d) (?=\d{3}\b)")
+
+_JOINS = re.compile(
+    r"(?<=\d) (?=\d{3}\b|(?:h|m|mm|mm2|km|kg|N|kN|N/mm2?|MPa|%|W|kW|rpm|m/s|deg|degrees|°C)(?:[^\w/]|$))"
+    r"|(?<=[<>≤≥=]) (?=\d)|(?<=\w) (?=[=≤≥] \d)"
+)
+"""Spaces within a number, before its unit and after its relation."""
 """What sets thousands apart."""
 
 _DEFAULT = re.compile(r"[a-z_]+\.[a-zA-Z_.]+ = ")
@@ -91,6 +97,17 @@ def unbroken(text: str) -> str:
     [['at'], ['1', '803'], ['h']]
     """
     return _GROUP.sub("\u00a0", text)
+
+
+def pages_kept(text: str) -> str:
+    """Return a text whose numbers do not break off their groups, units and relations.
+
+    Examples
+    --------
+    >>> pages_kept("until 21 090 h, by > 3 %").encode("ascii", "replace")
+    b'until 21?090?h, by >?3?%'
+    """
+    return _JOINS.sub("\u00a0", text)
 
 
 def listed(names: Sequence[str]) -> str:

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from wearsim._version import __version__
@@ -36,6 +35,7 @@ from wearsim.report.drive.page_tables import (
     shaft_table,
     span_table,
 )
+from wearsim.report.html.environment import environment
 from wearsim.report.html.page_content import HtmlTable, chain_tables
 from wearsim.report.html.paper import SheetHead, foot
 from wearsim.report.html.pdf import check_pdf, is_page, is_pdf, save_pdf
@@ -126,18 +126,15 @@ def check_sheet(out: Path, force: bool) -> None:
 
 def sheet_html(found: DriveLife, head: SheetHead) -> str:
     """Return the page."""
-    environment = Environment(
-        loader=FileSystemLoader(_TEMPLATES),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     style = _STYLE.read_text("utf-8") + (_TEMPLATES / "drive_sheet.css").read_text("utf-8")
-    return environment.get_template("drive_sheet.html.j2").render(
-        page=_page(found, head),
-        version=__version__,
-        style=Markup(style),  # noqa: S704
+    return (
+        environment(_TEMPLATES)
+        .get_template("drive_sheet.html.j2")
+        .render(
+            page=_page(found, head),
+            version=__version__,
+            style=Markup(style),  # noqa: S704
+        )
     )
 
 

@@ -58,7 +58,7 @@ def _note(row: InputRow) -> str:
 
 def _reason(row: InputRow) -> str:
     """Why a value was taken, empty where that it is the default is all there is to say."""
-    return row.why.removesuffix("default").removesuffix(", ")
+    return row.why.removeprefix("default: ").removesuffix("default").removesuffix(", ")
 
 
 def _shown(value: Any) -> str:

@@ -24,7 +24,7 @@ from wearsim.report.html.paper import SheetHead, foot
 from wearsim.report.html.run_charts import along_chart, history_chart, lives_chart, tooth_load_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
-from wearsim.report.rating import ratings_table
+from wearsim.report.rating import sheet_ratings
 from wearsim.report.text_lines import Finding, stated_and_defaults
 from wearsim.report.verification import given_rows, verification_rows
 from wearsim.result import Life, WearResult
@@ -69,6 +69,7 @@ class CasePage:
     findings: list[Finding]  # the rest of the answer
     margins: list[Margin]  # of every stop limit
     ratings: AnswerTable[RatingFinding]  # what the handbooks allow; without rows where they say nothing
+    rating_notes: list[str]  # what the marks at their sources mean
     chain_tables: list[HtmlTable]  # what ends first, published rules and events, where a chain wraps it
     tooth: list[Chart]  # the flank before and after
     charts: list[Chart]  # all others
@@ -105,6 +106,7 @@ def case_page(result: WearResult, name: str, brief: bool, head: SheetHead | None
     charts = [] if brief else _charts(result, case)
     figures = comparison_figures([result], {chart.still for chart in (*tooth, *charts)})
     taken, defaults = stated_and_defaults(result.assumptions)
+    ratings, rating_notes = sheet_ratings(result.ratings)
     return CasePage(
         name=name,
         title=result.title,
@@ -125,7 +127,8 @@ def case_page(result: WearResult, name: str, brief: bool, head: SheetHead | None
         percentiles=_percentiles(result, case),
         findings=page_findings(result),
         margins=margins(result, case),
-        ratings=ratings_table(result.ratings),
+        ratings=ratings,
+        rating_notes=rating_notes,
         chain_tables=chain_tables(result.ends, result.practice, result.events),
         tooth=tooth,
         charts=charts,

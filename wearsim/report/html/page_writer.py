@@ -1,17 +1,16 @@
 """The pages as files in a folder."""
 
 import hashlib
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from wearsim._version import __version__
 from wearsim.files import file_names, new_folder, write_file
+from wearsim.report.html.environment import environment
 from wearsim.report.html.page_content import case_page, comparison_page
 from wearsim.report.html.paper import SheetHead
 from wearsim.report.html.pdf import is_page, is_pdf, save_pdf
@@ -63,35 +62,23 @@ def save_report(
 
 def render(template: str, page: Any, single_file: bool, several: bool) -> str:
     """Return a page as HTML."""
-    loader = FileSystemLoader(_HERE / "templates")
-    environment = Environment(
-        loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    environment.filters["kept"] = pages_kept
     own = (_HERE / "report.js").read_text(encoding="utf-8")
     charts = [*getattr(page, "tooth", ()), *page.charts]
     content = {chart.name: chart.content for chart in charts}
     # Not to be guessed by whoever writes a title: it follows from all that the page holds.
     nonce = hashlib.sha256(repr((__version__, content, page)).encode()).hexdigest()[:32]
-    return environment.get_template(template).render(
-        page=page,
-        content=content,
-        version=__version__,
-        several=several,
-        nonce=nonce,
-        style=Markup((_HERE / "style.css").read_text(encoding="utf-8")),  # noqa: S704
-        script=Markup(own),  # noqa: S704
-        plotly=Markup(get_plotlyjs()) if single_file else None,  # noqa: S704
-        plotly_file=_SCRIPT,
+    return (
+        environment()
+        .get_template(template)
+        .render(
+            page=page,
+            content=content,
+            version=__version__,
+            several=several,
+            nonce=nonce,
+            style=Markup((_HERE / "style.css").read_text(encoding="utf-8")),  # noqa: S704
+            script=Markup(own),  # noqa: S704
+            plotly=Markup(get_plotlyjs()) if single_file else None,  # noqa: S704
+            plotly_file=_SCRIPT,
+        )
     )
-
-
-def pages_kept(text: str) -> str:
-    """Return a text whose numbers do not break off their groups and units.
-
-    Examples
-    --------
-    >>> pages_kept("until 21 090 h").encode("ascii", "replace")
-    b'until 21?090?h'
-    """
-    return re.sub(r"(?<=\d) (?=\d{3}\b|(?:h|mm|N|MPa|%)(?:\W|$))", "\u00a0", text)

@@ -6,6 +6,7 @@ from itertools import groupby
 from markupsafe import Markup
 
 from wearsim.geometry.scene import Circle, Label, Scene, Stroke
+from wearsim.report.text_lines import pages_kept
 
 _FIGURE = Markup(
     '<figure class="panel">\n'
@@ -25,7 +26,7 @@ def sketch(scene: Scene | None, links: Sequence[tuple[str, Circle]] = ()) -> Mar
     if scene is None:
         return Markup()
     left, bottom, width, height = scene.box
-    notes = Markup().join(Markup("<li>{}</li>").format(note) for note in scene.notes)
+    notes = Markup().join(Markup("<li>{}</li>").format(pages_kept(note)) for note in scene.notes)
     leading = (
         _LINK.format(place, circle.name, circle.centre[0], -circle.centre[1], circle.radius)
         for place, circle in links
