@@ -102,7 +102,7 @@ def series_of() -> Callable[..., WearSeries]:
 
 @pytest.fixture
 def judged(request: pytest.FixtureRequest) -> Callable[..., Judgement]:
-    """Return the court on a set: the law to take and the verdict are as stated, some laws are told apart.
+    """Return the court on a set: the preferred law and the verdict are as stated, some laws are not tied.
 
     A table of the page is made of it.
     """

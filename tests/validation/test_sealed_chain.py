@@ -9,7 +9,7 @@ This tests a sign; nothing is calibrated: no elongation, and yet the teeth reach
 whose teeth wear only because the chain has grown would fail. The distance is given for the
 coefficient of the case, with its band, a factor of 3.
 
-Failure: the distance. Teeth with the assumed coefficient last seven times as long as the
+Failures: the distance. Teeth with the assumed coefficient last seven times as long as the
 sprocket of the source (8000 km "and more"). Some 7e-6 mm3/(N m), near the typical value of
 `hardened, dry`, would give it, but so would another power or another limit.
 
