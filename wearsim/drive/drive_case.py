@@ -137,6 +137,16 @@ class DriveCase(ReadTables):
     def titled_case(self, sprocket: str | None) -> Case:
         """Return the case of the sprocket that is named, under a title that says so.
 
+        Parameters
+        ----------
+        sprocket : str, optional
+            Its name.
+
+        Returns
+        -------
+        Case
+            With all of the drive that wears it.
+
         Raises
         ------
         CaseError
