@@ -135,15 +135,6 @@ def test_missing_files(cli, monkeypatch):
     assert "missing" in content["self-test"]["found"]
 
 
-def test_working_folder_that_is_gone(cli, monkeypatch, tmp_path):
-    folder = tmp_path / "gone"
-    folder.mkdir()
-    monkeypatch.chdir(folder)
-    folder.rmdir()
-    _, failed = findings(cli, 1)
-    assert failed == ["working folder"]
-
-
 def test_no_temporary_folder(cli, monkeypatch):
     def none():
         raise FileNotFoundError("No usable temporary directory found")

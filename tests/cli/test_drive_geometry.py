@@ -188,7 +188,7 @@ def test_a_jump_does_not_hide_what_overloads_the_drive(checked):
     assert "'motor': " in motor and "the chain jumps: give a slack tension" in motor
     assert "'differential': " in differential
     assert ": load: the load must stay within its ratings: " in load
-    assert "roller impact 79.48 kW, allowed at most 1.597 kW (ANSI B29.1, H2): 4978 % of it" in load
+    assert "roller impact 79.48 kW, allowed at most 1.597 kW (ANSI B29.1, H2): 4 978 % of it" in load
     for name in ("plate fatigue", "corrected power", "safety against breaking"):
         assert name in load
 

@@ -434,7 +434,7 @@ class TestFaults:
         more = blocks((0.5, 5000, 100), (0.5, 900, 100))
         ((line, message),) = faults(more, overrides=[*CUT, f"drive={DRIVE}"])
         assert line == FIRST + 6
-        assert "duty.2.tension_N: the tight strand must pull more than the slack one, 1000 N" in message
+        assert "duty.2.tension_N: the tight strand must pull more than the slack one, 1 000 N" in message
 
     def test_of_a_log_that_never_pulls(self, faults):
         log = log_text("0,900,60", "1,900,60")

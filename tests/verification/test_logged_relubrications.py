@@ -181,7 +181,7 @@ def test_one_that_is_overdue_comes_now_and_counts() -> None:
     assert (log.mean_interval, log.to_come) == (402.5, 805.0)
     assert "in the last 804 h, but they came every 1 h before" in next(log.warnings(None))
     in_time = at_one_interval({"": RelubricationLog("log.csv", "time_hours", 2, (100.0, 200.0), 300.0)})[""]
-    assert (in_time.mean_interval, in_time.to_come, [*in_time.warnings()]) == (100.0, 300.0, [])
+    assert (in_time.mean_interval, in_time.to_come, [*in_time.warnings(None)]) == (100.0, 300.0, [])
 
 
 def test_the_calibrated_case_lives_as_told(tmp_path: Path):

@@ -155,11 +155,7 @@ def _temporary_folder() -> InstallationCheck:
 
 
 def _working_folder() -> InstallationCheck:
-    advice = "change to a writable folder, or name one with --out"
-    try:
-        return _writable("working folder", Path.cwd(), advice)
-    except OSError as error:
-        return InstallationCheck("working folder", "failed", str(error), advice)
+    return _writable("working folder", Path.cwd(), "change to a writable folder, or name one with --out")
 
 
 def _writable(name: str, folder: Path, advice: str) -> InstallationCheck:
