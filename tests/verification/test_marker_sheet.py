@@ -194,6 +194,17 @@ def test_a_ruler_without_a_sheet_is_refused(scanned):
         scanned(Camera(size=SIZE, distance=8.0), ruler=100.0)
 
 
+def test_a_thickness_without_a_sheet_is_refused(scanned):
+    with pytest.raises(wearsim.CaseError, match="leave the thickness out"):
+        scanned(Camera(size=SIZE, distance=8.0), thickness=THICKNESS)
+
+
+@pytest.mark.parametrize("thickness", [120.0, 1e6])
+def test_teeth_as_thick_as_the_camera_is_high_are_refused(scanned, sheet, thickness):
+    with pytest.raises(wearsim.CaseError, match="the teeth must be thinner than 6"):
+        scanned(over_sheet(Print.of(sheet, at=ORIGIN), tilt=math.radians(6.0)), thickness=thickness)
+
+
 def test_a_mirrored_picture_is_told(scanned, sheet):
     found = scanned(over_sheet(Print.of(sheet, at=ORIGIN), mirror=True))
     assert found.summary()["mirrored"] is True

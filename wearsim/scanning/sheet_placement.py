@@ -26,6 +26,9 @@ _LIFT_ERROR = 0.15
 _UNEVEN = (0.1, 0.5)
 """Scatter of the dots that is doubtful, and that is wrong [mm]."""
 
+_THICKEST = 0.1
+"""Largest thickness of the teeth over the height of the camera."""
+
 _REMEDY = "measure the ruler of the print and give it by --ruler-mm, and check the chain"
 
 _SECOND = 24
@@ -155,6 +158,22 @@ def find_sheet(photograph: Photograph, ruler: float | None = None) -> SeenSheet 
             "table, and press it down at its edges",
         )
     return sheet
+
+
+def check_thickness(thickness: float, sheet: SeenSheet | None, photograph: str) -> None:
+    """Raise for a thickness of the teeth [mm] without a sheet, or one that the camera could not look over."""
+    if sheet is None:
+        raise bad_photograph(
+            photograph,
+            "a marker sheet must be seen where the thickness of the teeth is given, but too few of its dots "
+            "are: photograph at least half of it without shadows, or leave the thickness out",
+        )
+    if thickness > _THICKEST * sheet.height:
+        raise bad_photograph(
+            photograph,
+            f"the teeth must be thinner than {_THICKEST * sheet.height:.0f} mm below a camera "
+            f"{sheet.height:.0f} mm above the sheet, but {thickness:g} mm are given: correct the thickness",
+        )
 
 
 def uneven_warning(sheet: SeenSheet) -> str:
