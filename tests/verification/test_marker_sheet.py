@@ -156,6 +156,20 @@ def test_a_print_that_was_fitted_to_the_page(scanned, sheet):
     assert found.found.depths.place.known.scale == pytest.approx(true_scale(camera), rel=1e-3)
 
 
+def test_a_height_that_is_not_known_is_told(sheet, tmp_path):
+    """35 mm are assumed without a note; the camera of 700 mm and 5 pixels per mm has 3500 pixels, 84 mm."""
+    camera = replace(
+        over_sheet(Print.of(sheet, at=ORIGIN), away=700.0),
+        size=(1500, 1500),
+        wheel=2.0 * RADIUS * 5.0 / 1500.0,
+    )
+    picture(OUTLINE, camera).save(tmp_path / "wheel.png")
+    found = wearsim.scan(tmp_path / "wheel.png", chain="08B")
+    (warning,) = found.warnings
+    assert "the height of the camera is not certain" in warning
+    assert abs(found.depth - DEPTH) < 3.0 * found.depth_error
+
+
 @pytest.mark.parametrize(("bulge", "message"), [(4.0, "is not flat"), (12.0, "must be flat")])
 def test_a_sheet_that_is_not_flat(scanned, sheet, bulge, message):
     camera = over_sheet(Print.of(sheet, at=ORIGIN, bulge=bulge), away=400.0)

@@ -31,6 +31,9 @@ _THICKEST = 0.1
 
 _REMEDY = "measure the ruler of the print and give it by --ruler-mm, and check the chain"
 
+_UNKNOWN_HEIGHT = 0.1
+"""Standard deviation of the camera's height, relative, from which the height itself is doubtful."""
+
 _SECOND = 24
 """Dots that lie elsewhere from which there is a second sheet."""
 
@@ -75,9 +78,16 @@ class SeenSheet:
                 middle * self.camera.height_error,
             )
             scale = self.camera.scale(at) / self.stretch / (1.0 - middle)
-            return KnownScale(scale, error, self._words(wheel), _REMEDY)
+            return KnownScale(scale, error, self._words(wheel), self._remedy)
 
         return known
+
+    @property
+    def _remedy(self) -> str:
+        if self.camera.height_error < _UNKNOWN_HEIGHT:
+            return _REMEDY
+        lens = "take a picture that notes the focal length, as the height of the camera is not certain"
+        return f"{lens}; {_REMEDY}"
 
     def camera_over(self, wheel: NewWheel) -> KnownCamera:
         """Return the camera as it sees a wheel that lies on the sheet."""
