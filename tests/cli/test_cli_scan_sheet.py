@@ -44,6 +44,8 @@ def test_a_file_is_replaced_by_force_alone(cli, tmp_path):
         (("photo.jpg", "--chain", "08B", "--paper", "a4"), "--paper belongs to --sheet"),
         (("photo.jpg", "--chain", "08B", "--ruler-mm", "9.92"), "--ruler-mm"),
         (("--sheet", "sheet.pdf", "--paper", "a9"), "--paper"),
+        (("--sheet", "sheet.pdf", "--chain", "08B"), "--chain belongs to a PHOTO"),
+        (("--sheet", "sheet.pdf", "--out", "worn"), "--out belongs to a PHOTO"),
         ((), "give a PHOTO to measure, or --sheet FILE"),
     ],
 )

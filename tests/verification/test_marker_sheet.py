@@ -156,6 +156,20 @@ def test_a_print_that_was_fitted_to_the_page(scanned, sheet):
     assert found.found.depths.place.known.scale == pytest.approx(true_scale(camera), rel=1e-3)
 
 
+def test_a_height_that_is_not_known_is_told(sheet, tmp_path):
+    """35 mm are assumed without a note; the camera of 700 mm and 5 pixels per mm has 3500 pixels, 84 mm."""
+    camera = replace(
+        over_sheet(Print.of(sheet, at=ORIGIN), away=700.0),
+        size=(1500, 1500),
+        wheel=2.0 * RADIUS * 5.0 / 1500.0,
+    )
+    picture(OUTLINE, camera).save(tmp_path / "wheel.png")
+    found = wearsim.scan(tmp_path / "wheel.png", chain="08B")
+    (warning,) = found.warnings
+    assert "the height of the camera is not certain" in warning
+    assert abs(found.depth - DEPTH) < 3.0 * found.depth_error
+
+
 @pytest.mark.parametrize(("bulge", "message"), [(4.0, "is not flat"), (12.0, "must be flat")])
 def test_a_sheet_that_is_not_flat(scanned, sheet, bulge, message):
     camera = over_sheet(Print.of(sheet, at=ORIGIN, bulge=bulge), away=400.0)
@@ -192,6 +206,17 @@ def test_two_sheets_are_refused(scanned, sheet):
 def test_a_ruler_without_a_sheet_is_refused(scanned):
     with pytest.raises(wearsim.CaseError, match="too few of its dots"):
         scanned(Camera(size=SIZE, distance=8.0), ruler=100.0)
+
+
+def test_a_thickness_without_a_sheet_is_refused(scanned):
+    with pytest.raises(wearsim.CaseError, match="leave the thickness out"):
+        scanned(Camera(size=SIZE, distance=8.0), thickness=THICKNESS)
+
+
+@pytest.mark.parametrize("thickness", [120.0, 1e6])
+def test_teeth_as_thick_as_the_camera_is_high_are_refused(scanned, sheet, thickness):
+    with pytest.raises(wearsim.CaseError, match="the teeth must be thinner than 6"):
+        scanned(over_sheet(Print.of(sheet, at=ORIGIN), tilt=math.radians(6.0)), thickness=thickness)
 
 
 def test_a_mirrored_picture_is_told(scanned, sheet):

@@ -19,7 +19,7 @@ from wearsim.scanning.model import SURE, ScannedWheel, scan_photograph
 from wearsim.scanning.new_wheel import STANDARDS, NewWheel, wheel_of_case, wheel_of_chain
 from wearsim.scanning.photograph import Photograph, read_photograph
 from wearsim.scanning.sheet import depth_table, points_csv, readings_csv, scan_json, scan_text, tooth_table
-from wearsim.scanning.sheet_placement import find_sheet
+from wearsim.scanning.sheet_placement import check_thickness, find_sheet
 from wearsim.scanning.silhouette import Silhouette, find_silhouette
 from wearsim.study.remaining.model import DEPTH, SingleReading, remaining_life
 
@@ -234,6 +234,8 @@ def scan(
     one = None if case is None else _of_one(loaded(case), sprocket)
     picture = photograph if isinstance(photograph, Photograph) else read_photograph(Path(photograph))
     sheet = find_sheet(picture, ruler)
+    if thickness is not None:
+        check_thickness(thickness, sheet, picture.name)
     plain = picture if sheet is None else sheet.cleared(picture)
     seen = find_silhouette(plain)
     if one is not None:

@@ -1,9 +1,11 @@
 """``wearsim scan``: the wear of a sprocket from a photograph of it."""
 
+import math
 from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from wearsim.command.answered import Shown, shown_options
 from wearsim.command.cases_and_runs import one_sprocket
@@ -19,6 +21,8 @@ from wearsim.command.options import (
 )
 from wearsim.command.single_file import format_of, write_content
 from wearsim.scanning.papers import PAGE_FORMATS, PAPERS
+
+_BESIDE_SHEET = ("sheet", "paper", "force", "quiet", "debug")
 
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
@@ -36,6 +40,10 @@ class _ScalePoints(click.ParamType[Any]):
             numbers = ()
         if len(numbers) != 5:
             self.fail(f"{value!r} is not five numbers x1,y1,x2,y2,mm", param, ctx)
+        if not all(math.isfinite(number) for number in numbers):
+            self.fail(f"{value!r} must hold finite numbers", param, ctx)
+        if numbers[4] <= 0.0:
+            self.fail(f"the distance must be above 0 mm, is {numbers[4]:g}", param, ctx)
         return numbers
 
 
@@ -137,6 +145,7 @@ def scan(
     if sheet is not None:
         if photo is not None:
             raise click.UsageError("--sheet writes a sheet to print: give it without PHOTO")
+        _check_beside_sheet(click.get_current_context())
         _write_sheet(sheet, paper or next(iter(PAPERS)), shown.force)
         return
     if photo is None:
@@ -173,6 +182,15 @@ def scan(
             progress=progress,
         )
     shown.save(found, photo)
+
+
+def _check_beside_sheet(context: click.Context) -> None:
+    """Raise for an option that does not say how a sheet is written."""
+    for option in context.command.params:
+        name = option.name or ""
+        is_given = context.get_parameter_source(name) is ParameterSource.COMMANDLINE
+        if is_given and name not in _BESIDE_SHEET:
+            raise click.UsageError(f"{option.opts[0]} belongs to a PHOTO: leave it out beside --sheet")
 
 
 def _write_sheet(place: Path, paper: str, force: bool) -> None:

@@ -26,7 +26,13 @@ _LIFT_ERROR = 0.15
 _UNEVEN = (0.1, 0.5)
 """Scatter of the dots that is doubtful, and that is wrong [mm]."""
 
+_THICKEST = 0.1
+"""Largest thickness of the teeth over the height of the camera."""
+
 _REMEDY = "measure the ruler of the print and give it by --ruler-mm, and check the chain"
+
+_UNKNOWN_HEIGHT = 0.1
+"""Standard deviation of the camera's height, relative, from which the height itself is doubtful."""
 
 _SECOND = 24
 """Dots that lie elsewhere from which there is a second sheet."""
@@ -72,9 +78,16 @@ class SeenSheet:
                 middle * self.camera.height_error,
             )
             scale = self.camera.scale(at) / self.stretch / (1.0 - middle)
-            return KnownScale(scale, error, self._words(wheel), _REMEDY)
+            return KnownScale(scale, error, self._words(wheel), self._remedy)
 
         return known
+
+    @property
+    def _remedy(self) -> str:
+        if self.camera.height_error < _UNKNOWN_HEIGHT:
+            return _REMEDY
+        lens = "take a picture that notes the focal length, as the height of the camera is not certain"
+        return f"{lens}; {_REMEDY}"
 
     def camera_over(self, wheel: NewWheel) -> KnownCamera:
         """Return the camera as it sees a wheel that lies on the sheet."""
@@ -155,6 +168,22 @@ def find_sheet(photograph: Photograph, ruler: float | None = None) -> SeenSheet 
             "table, and press it down at its edges",
         )
     return sheet
+
+
+def check_thickness(thickness: float, sheet: SeenSheet | None, photograph: str) -> None:
+    """Raise for a thickness of the teeth [mm] without a sheet, or one that the camera could not look over."""
+    if sheet is None:
+        raise bad_photograph(
+            photograph,
+            "a marker sheet must be seen where the thickness of the teeth is given, but too few of its dots "
+            "are: photograph at least half of it without shadows, or leave the thickness out",
+        )
+    if thickness > _THICKEST * sheet.height:
+        raise bad_photograph(
+            photograph,
+            f"the teeth must be thinner than {_THICKEST * sheet.height:.0f} mm below a camera "
+            f"{sheet.height:.0f} mm above the sheet, but {thickness:g} mm are given: correct the thickness",
+        )
 
 
 def uneven_warning(sheet: SeenSheet) -> str:
