@@ -135,8 +135,9 @@ def scan(
     sprocket. The picture does not leave this computer.
     """
     if sheet is not None:
-        if photo is not None:
-            raise click.UsageError("--sheet writes a sheet to print: give it without PHOTO")
+        of_scan = (photo, case, chain, teeth, profile, bore_mm, scale, dpi, ruler_mm, thickness_mm, hours)
+        if any(one is not None for one in (*of_scan, sprocket, shown.out)) or settings:
+            raise click.UsageError("--sheet writes a sheet to print: give it without PHOTO and its options")
         _write_sheet(sheet, paper or next(iter(PAPERS)), shown.force)
         return
     if photo is None:
