@@ -162,6 +162,16 @@ def test_layer_is_chosen(drawing: Drawing, save: Save) -> None:
         outline_from_dxf(save(drawing), TEETH)
 
 
+def test_only_the_chosen_layer_must_be_small(drawing: Drawing, save: Save) -> None:
+    space = drawing.modelspace()
+    space.add_lwpolyline(star(), close=True, dxfattribs={"layer": "outline"})
+    for i in range(1001):
+        space.add_circle((100.0 + i, 0.0), 0.4, dxfattribs={"layer": "holes"})
+    outline_from_dxf(save(drawing), TEETH, layer="outline")
+    with pytest.raises(GeometryError, match="at most 1000 circles"):
+        outline_from_dxf(save(drawing), TEETH)
+
+
 def test_wrong_number_of_gaps_is_named(drawing: Drawing, save: Save) -> None:
     drawing.modelspace().add_lwpolyline(star(), close=True)
     with pytest.raises(GeometryError, match=r"with 7 gaps.*1 closed outlines \(with 6 gaps\)"):

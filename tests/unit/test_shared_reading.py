@@ -57,6 +57,7 @@ def test_a_whole_one(read):
         ("depth_mm = 0.3\n", "", "reading.depth_mm"),
         ("depth_se_mm = 0.01", "depth_se_mm = -0.01", "reading.depth_se_mm"),
         ("time_hours = 4200\n", "", "reading.time_hours"),
+        ("2026-03-31", "2026-03-31T10:00:00", r"reading.date: must be a day such as 2026-03-31, without"),
         ("2026-03-31", '"2026-03-31"', r"reading.date: must be a day such as 2026-03-31, without quotes"),
         ("CC0-1.0", "MIT", r"reading.licence: must be 'CC0-1.0'"),
         ("photograph", "guess", "reading.origin"),

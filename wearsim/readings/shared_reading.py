@@ -31,7 +31,7 @@ _HEAD = (
 
 
 def _day(value: object) -> object:
-    if not isinstance(value, date):
+    if type(value) is not date:  # a time of day is a date too
         raise ValueError("must be a day such as 2026-03-31, without quotes")
     return value
 

@@ -1,4 +1,4 @@
-"""The dots of a marker sheet in a photograph: found by their shade, told apart by which of them are rings."""
+"""The dots of a marker sheet in a photograph: found by their shade, identified by which of them are rings."""
 
 import math
 from collections import deque
@@ -36,7 +36,7 @@ _FILLED = 0.1
 """How much the area of a dot may differ from that of an ellipse of its moments, relative."""
 
 _FEWEST = 24
-"""Dots of one piece of the grid from which it is told where they belong."""
+"""Dots of one piece of the grid from which its place on the sheet can be found."""
 
 _AGREE = 0.9
 """Part of the dots of a piece that must be rings or not as the sheet says."""
@@ -73,7 +73,7 @@ class Blobs(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Markers:
-    """Dots of the sheet that are seen."""
+    """Dots of the sheet that are in a photograph."""
 
     dots: Numbers  # columns and rows, shape (n, 2)
     points: Vector  # their middles in the picture [px], shape (n, 2)
@@ -169,6 +169,8 @@ def _centred(
         # A disc whose rim fades over a pixel takes no side.
         weight = (paper - square) * np.clip(reach + 0.5 - away, 0.0, 1.0)
         total = float(weight.sum())
+        if total <= 0.0:
+            return None
         middle = np.array([across + (x * weight).sum() / total, down + (y * weight).sum() / total])
     inner = away < 0.5 * diameter * 0.5 * HOLE / DOT
     ring = np.abs(away - 0.25 * diameter * (1.0 + HOLE / DOT)) < 0.5 + 0.05 * diameter
@@ -240,7 +242,7 @@ def _all_rings() -> NDArray[np.int8]:
 
 
 def _placed(piece: Piece, blobs: Blobs) -> Piece:
-    """Return a piece by the columns and rows that its rings tell; empty where they do not."""
+    """Return a piece by the columns and rows that its rings give; empty where it is no part of the sheet."""
     places, hollow = np.array(list(piece)), np.where(blobs.hollow[list(piece.values())], 1, -1)
     agreed = []
     for turn in _TURNS:
@@ -260,6 +262,8 @@ def _placed(piece: Piece, blobs: Blobs) -> Piece:
         rest[which] = -len(rows)
         shift = np.array([across[which[0]], up[which[1]]])
         agreed += [(best, turned + shift), (float(rest.max()), turned)]
+    if not agreed:  # larger than any sheet, such as a perforated plate
+        return {}
     agreed.sort(key=lambda pair: pair[0], reverse=True)
     (best, at), (next_best, _) = agreed[:2]
     share, other = (0.5 * (1.0 + one / len(places)) for one in (best, next_best))
@@ -291,7 +295,7 @@ def _completed(sheet: Piece, blobs: Blobs) -> Piece:
 
 
 def _expected(places: Numbers, sheet: Piece, blobs: Blobs) -> Vector:
-    """Return where dots are to be seen by those of the sheet that are known [px]."""
+    """Return where dots must lie in the picture, by those of the sheet that are known [px]."""
     matrix = homography(dot_points(np.array(list(sheet))), blobs.points[list(sheet.values())])
     seen = np.column_stack([dot_points(places), np.ones(len(places))]) @ matrix.T
     return np.asarray(seen[:, :2] / seen[:, 2:])

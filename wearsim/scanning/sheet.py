@@ -111,17 +111,7 @@ def scan_findings(found: ScannedWheel) -> Iterator[Finding]:
     )
     yield Finding("Other flank", f"{max(depths.other_depth, 0.0):.3f} mm where it is deepest")
     if (pins := over_pins(depths)) is not None:
-        is_less = pins.decrease > SURE * pins.error
-        less = (
-            f"{pins.decrease:.3f} mm less than the new form"
-            if is_less
-            else "as the new form, within the error"
-        )
-        yield Finding(
-            "Over pins",
-            f"{pins.size:.3f} mm +- {pins.error:.3f} with pins of the roller's diameter, "
-            f"{pins.pin_diameter:g} mm: {less}",
-        )
+        yield _pins_finding(pins)
     yield Finding("New form", f"fits within {depths.misfit:.3f} mm where the wheel is not worn")
     by = (
         f"the form of the teeth, if their pitch is {wheel.pitch:g} mm: a wrong chain gives wrong millimetres "
@@ -141,6 +131,17 @@ def scan_findings(found: ScannedWheel) -> Iterator[Finding]:
         band = f"{hours(left.remaining_low)} to {hours(left.remaining_high)}"
         yield Finding("Remaining", f"{hours(left.remaining)} after {grouped(left.reading.hours)} h")
         yield Finding("Band", f"{band} by two standard errors of the depth")
+
+
+def _pins_finding(pins: OverPins) -> Finding:
+    less = "as the new form, within the error"
+    if pins.decrease > SURE * pins.error:
+        less = f"{pins.decrease:.3f} mm less than the new form"
+    return Finding(
+        "Over pins",
+        f"{pins.size:.3f} mm +- {pins.error:.3f} with pins of the roller's diameter, "
+        f"{pins.pin_diameter:g} mm: {less}",
+    )
 
 
 def _seen_by(sheet: SeenSheet) -> str:

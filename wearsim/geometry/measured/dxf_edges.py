@@ -119,18 +119,16 @@ def _unit(document: "Drawing", path: Path, notes: list[str]) -> float:
 
 def _entities(document: "Drawing", path: Path, layer: str | None) -> "list[DXFGraphic]":
     everything = list(document.modelspace())
-    circles = sum(entity.dxftype() == "CIRCLE" for entity in everything)
-    _check_count(path, circles, _MOST_CIRCLES, "circles")
-    _check_count(path, len(everything), _MOST_EDGES, "edges")
-    if layer is None:
-        return everything
-    chosen = [e for e in everything if e.dxf.get("layer", "0").lower() == layer.lower()]
-    if not chosen:
+    chosen = [e for e in everything if layer is None or e.dxf.get("layer", "0").lower() == layer.lower()]
+    if not chosen and layer is not None:
         used = ", ".join(sorted({e.dxf.get("layer", "0") for e in everything})) or "none"
         raise GeometryError(
             f"{path}: the layer {layer!r} must hold the outline, but holds nothing: use one of the "
             f"layers in use ({used})"
         )
+    circles = sum(entity.dxftype() == "CIRCLE" for entity in chosen)
+    _check_count(path, circles, _MOST_CIRCLES, "circles")
+    _check_count(path, len(chosen), _MOST_EDGES, "edges")
     return chosen
 
 

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from wearsim.command.answered import Shown, shown_options
 from wearsim.command.complete import CasePath, ReadingsPath
@@ -133,8 +134,9 @@ def remaining(
         raise click.UsageError("--out needs READINGS: one reading has neither table nor picture")
     single: dict[str, Any]
     if reading is not None:
-        if given or hours is not None:
-            raise click.UsageError("--reading holds hours and depth: leave out --hours, --depth-mm and so on")
+        if given or hours is not None or new_over_pins_mm is not None or _says_error():
+            text = "--reading holds hours, depth and error: leave out --hours, --depth-mm and so on"
+            raise click.UsageError(text)
         single = {"reading": reading}
     elif hours is None:
         raise click.UsageError("give READINGS, --reading, or --hours and one reading")
@@ -158,3 +160,10 @@ def remaining(
     with shown.failing(case.stem), working(f"wearing {loaded.title}") as progress:
         found = answer.remaining(loaded, **single, sprocket=sprocket, progress=progress)
     shown.show(found, case)
+
+
+def _says_error() -> bool:
+    """Whether the user gives the error of a reading."""
+    context = click.get_current_context()
+    names = ("reading_error_mm", "reading_error_percent")
+    return any(context.get_parameter_source(name) is ParameterSource.COMMANDLINE for name in names)
