@@ -16,9 +16,9 @@ pytestmark = pytest.mark.usefixtures("not_for_ever")
     ("more", "words"),
     [
         (".".join(["a"] * 20_000) + " = 1", "nested at most 20 deep"),
-        ("\n".join(f"k{number} = 1" for number in range(150_000)), "at most 5000 keys, holds about 150"),
-        ("[[duty]]\nhours = 1\nspeed_rpm = 50\ntension_N = 900\n" * 10_000, "at most 5000 keys"),
-        ("list = [" + "1," * 900_000 + "]", "at most 20000 values in lists"),
+        ("\n".join(f"k{number} = 1" for number in range(150_000)), "at most 20000 keys, holds about 150"),
+        ("[[duty]]\nhours = 1\nspeed_rpm = 50\ntension_N = 900\n" * 15_000, "at most 20000 keys"),
+        ("list = [" + "1," * 900_000 + "]", "at most 100000 values in lists"),
     ],
     ids=["dotted key", "keys", "duty blocks", "list"],
 )

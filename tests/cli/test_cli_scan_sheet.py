@@ -41,7 +41,7 @@ def test_a_file_is_replaced_by_force_alone(cli, tmp_path):
     [
         (("--sheet", "sheet.jpg"), "must end in one of .pdf, .svg, .png"),
         (("photo.jpg", "--sheet", "sheet.pdf"), "without PHOTO"),
-        (("--sheet", "sheet.pdf", "--ruler-mm", "99"), "without PHOTO and its options"),
+        (("--sheet", "sheet.pdf", "--ruler-mm", "99"), "--ruler-mm belongs to a PHOTO"),
         (("photo.jpg", "--chain", "08B", "--paper", "a4"), "--paper belongs to --sheet"),
         (("photo.jpg", "--chain", "08B", "--ruler-mm", "9.92"), "--ruler-mm"),
         (("--sheet", "sheet.pdf", "--paper", "a9"), "--paper"),

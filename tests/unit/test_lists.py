@@ -122,7 +122,5 @@ def test_a_column_of_no_quantity_or_twice_is_no_result(result, name, tmp_path):
     file = tmp_path / "run" / "flank.csv"
     head, *rows = file.read_text().split()
     file.write_text("\n".join([f"{head},{name}", *(f"{row},1" for row in rows)]))
-    with pytest.raises(
-        wearsim.WearsimError, match=r"flank.csv must hold rows of cycles, .*: run its case"
-    ):
+    with pytest.raises(wearsim.WearsimError, match=r"flank.csv must hold rows of cycles, .*: run its case"):
         WearResult.load(tmp_path / "run")

@@ -165,8 +165,9 @@ def test_a_height_that_is_not_known_is_told(sheet, tmp_path):
     )
     picture(OUTLINE, camera).save(tmp_path / "wheel.png")
     found = wearsim.scan(tmp_path / "wheel.png", chain="08B")
-    (warning,) = found.warnings
-    assert "the height of the camera is not certain" in warning
+    scales, height = found.warnings
+    assert "as the height of the camera is not certain" in scales
+    assert "by more than its standard error" in height
     assert abs(found.depth - DEPTH) < 3.0 * found.depth_error
 
 

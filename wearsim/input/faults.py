@@ -4,6 +4,7 @@ import difflib
 import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin
 
@@ -222,9 +223,13 @@ def _closest(word: str, names: list[str]) -> str:
     return next(iter([*begun, *difflib.get_close_matches(word, names, n=1, cutoff=0.6)]), "")
 
 
+_MOST_SEARCHED = 20_000
+"""Characters of a text in which lines are looked for: that takes the square of its tables."""
+
+
 def line_of(text: str, key: str) -> int:
-    """Return the line of a key in a TOML text."""
-    if not text:
+    """Return the line of a key in a TOML text; 0 where it is not there, or the text is long."""
+    if not text or len(text) > _MOST_SEARCHED:
         return 0
     parts = key.split(".")
     line = _line_of_value(text, parts)
@@ -234,12 +239,18 @@ def line_of(text: str, key: str) -> int:
     return line
 
 
+@lru_cache(maxsize=1)
+def _document(text: str) -> Any:
+    import tomlkit
+
+    return tomlkit.parse(text)
+
+
 def _line_of_value(text: str, parts: list[str]) -> int:
     import tomlkit
     from tomlkit.items import AoT
 
-    document: Any = tomlkit.parse(text)
-    place = document
+    document = place = _document(text)
     for part in parts[:-1]:
         if isinstance(place, list) and is_number(part) and 0 < int(part) <= len(place):
             place = place[int(part) - 1]
@@ -257,6 +268,7 @@ def _line_of_value(text: str, parts: list[str]) -> int:
         return min((line for line in lines if line), default=0)
     place[parts[-1]] = _MARK  # type: ignore[index]
     dumped = tomlkit.dumps(document)
+    place[parts[-1]] = value  # type: ignore[index]
     marked = tomlkit.item(_MARK).as_string()
     before, found, _ = dumped.partition(marked)
     return before.count("\n") + 1 if found else 0

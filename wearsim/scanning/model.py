@@ -9,7 +9,7 @@ from wearsim.scanning.known_scales import LookUp
 from wearsim.scanning.new_wheel import NewWheel
 from wearsim.scanning.photograph import Photograph, bad_photograph
 from wearsim.scanning.placement import ANY_CAMERA, SEARCH, Placement, edge_bias, place_wheel
-from wearsim.scanning.sheet_placement import SeenSheet, uneven_warning
+from wearsim.scanning.sheet_placement import SeenSheet, height_warning, uneven_warning
 from wearsim.scanning.silhouette import Silhouette
 from wearsim.study.remaining.model import RemainingLife
 
@@ -182,5 +182,4 @@ def _tilt_warnings(seen: Silhouette, sheet: SeenSheet | None) -> Iterator[str]:
     if sheet is not None:
         if sheet.mirrored:
             yield "the picture is a mirror image, as the marker sheet shows: flanks face as in the picture"
-        if uneven := uneven_warning(sheet):
-            yield uneven
+        yield from filter(None, (height_warning(sheet), uneven_warning(sheet)))

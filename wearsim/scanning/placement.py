@@ -44,7 +44,7 @@ _EDGE_BIAS = 0.03
 
 _MISFIT_BIAS = 5.0
 """How much farther bright rims and shadows move them, over the blur and what they change of the light."""
-_SIDES_ERROR = 0.25
+CHAMFER_ERROR = 0.25
 """Standard deviation of the thickness at the edges over that of the teeth: edges are chamfered."""
 
 _ALIKE = 0.02
@@ -85,6 +85,7 @@ class KnownCamera:
     distortion_error: float = _DISTORTION  # standard deviation
     second_distortion: float = 0.0
     half_thickness: float = 0.0  # of the teeth [mm], 0 where they are taken for flat
+    sides_error: float = CHAMFER_ERROR  # standard deviation of what is seen of the sides of teeth, relative
     # returns where the camera is over the middle plane of a wheel [mm], shape (3,)
     place: Callable[[Projection], Vector] = lambda projection: np.array([0.0, 0.0, 1.0])
 
@@ -381,13 +382,13 @@ class _Fit:
             unit[NUMBERS - 1] / self.camera.distortion_error,
             unit[_TIP] / (_TIP_TOLERANCE * self.wheel.pitch),
             unit[_BIAS] / bias,
-            unit[_SIDES] / _SIDES_ERROR,
+            unit[_SIDES] / self.camera.sides_error,
         ]
         off = [
             (self.camera.distortion - self.projection.distortion) / self.camera.distortion_error,
             -self.tip / (_TIP_TOLERANCE * self.wheel.pitch),
             -self.bias / bias,
-            (1.0 - self.sides) / _SIDES_ERROR,
+            (1.0 - self.sides) / self.camera.sides_error,
         ]
         if self.known is not None:
             by_numbers = np.concatenate([self.projection.scale_by_numbers, np.zeros(3)])

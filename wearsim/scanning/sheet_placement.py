@@ -13,7 +13,7 @@ from wearsim.scanning.marker_grid import DOT, RULER, dot_points
 from wearsim.scanning.marker_search import Markers, find_markers
 from wearsim.scanning.new_wheel import NewWheel
 from wearsim.scanning.photograph import Light, Photograph, bad_photograph
-from wearsim.scanning.placement import KnownCamera, KnownScale
+from wearsim.scanning.placement import CHAMFER_ERROR, KnownCamera, KnownScale
 from wearsim.scanning.projection import Projection
 from wearsim.scanning.sheet_camera import SheetCamera, sheet_camera
 
@@ -100,7 +100,14 @@ class SeenSheet:
             below = np.linalg.solve(axes, self.camera.position[:2] - centre)
             return np.array([*below, self.height - half])
 
-        return KnownCamera(seen.distortion, self.camera.distortion_error, seen.second_distortion, half, place)
+        return KnownCamera(
+            distortion=seen.distortion,
+            distortion_error=self.camera.distortion_error,
+            second_distortion=seen.second_distortion,
+            half_thickness=half,
+            sides_error=math.hypot(CHAMFER_ERROR, self.camera.height_error),
+            place=place,
+        )
 
     def _below(self, projection: Projection, points: Vector) -> Vector:
         """Return the points of the sheet that points of a wheel's plane [mm] are seen before."""
@@ -184,6 +191,17 @@ def check_thickness(thickness: float, sheet: SeenSheet | None, photograph: str) 
             f"the teeth must be thinner than {_THICKEST * sheet.height:.0f} mm below a camera "
             f"{sheet.height:.0f} mm above the sheet, but {thickness:g} mm are given: correct the thickness",
         )
+
+
+def height_warning(sheet: SeenSheet) -> str:
+    """Return what is to be said of a camera whose height is not certain; empty where it is."""
+    if sheet.camera.height_error < _UNKNOWN_HEIGHT:
+        return ""
+    return (
+        "the height of the camera is not certain, as the picture notes no focal length and is hardly tilted: "
+        "what shows of the sides of thick teeth may change the depth by more than its standard error; take "
+        "the picture of the camera itself, not a copy without its data"
+    )
 
 
 def uneven_warning(sheet: SeenSheet) -> str:
