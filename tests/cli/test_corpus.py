@@ -44,4 +44,4 @@ def test_points(cli, drive, path):
 
 @pytest.mark.parametrize("path", files("readings"), ids=by_name)
 def test_readings(cli, drive, path):
-    ends_well(cli("remaining", drive(), path))
+    ends_well(cli("calibrate", drive(), path))
