@@ -146,7 +146,7 @@ def test_print_shows_still_pictures(watched, reports):
     assert all(img.evaluate(width)[1] > 0 for img in watched.locator("img.still").all())
 
 
-@pytest.mark.parametrize(("drive", "sheets"), [("strand", 5), ("wrap", 7)])
+@pytest.mark.parametrize(("drive", "sheets"), [("strand", 5), ("wrap", 8)])
 def test_a_printed_page_wastes_no_sheets(watched, reports, drive, sheets):
     """On A4 as the page itself asks for it; before, pictures that fill a sheet left others half empty."""
     shown(watched, reports / drive)

@@ -368,6 +368,37 @@ def test_threshold_that_is_never_reached_is_warned_of() -> None:
     assert any("never reached" in text for text in case.warnings)
 
 
+def dried_teeth(tables: dict[str, Any], *settings: str) -> list[str]:
+    warnings = wearsim.load_case(tables, settings).warnings
+    return [warning for warning in warnings if "teeth that have dried out" in warning]
+
+
+@pytest.mark.parametrize(
+    ("lubricant", "rates"),
+    [
+        # 39 * 5e-10 = 1.95e-8, over 1e-8: 1.95; 58 * 3.3e-10 = 1.914e-8.
+        ("manual", ("39", "1.95e-08 mm2/N", "1e-08 mm2/N", "1.95 times too short")),
+        ("drip", ("58", "1.91e-08 mm2/N", "1e-08 mm2/N", "1.91 times too short")),
+    ],
+)
+def test_teeth_that_dry_out_beyond_dry_ones_are_warned_of(lubricant: str, rates: tuple[str, ...]) -> None:
+    tables = {**STRAND, "lubrication": {"lubricant": lubricant, "lasts_hours": 12.0}}
+    (warning,) = dried_teeth(tables, "wear.tooth_hardness=normalised")
+    assert all(rate in warning for rate in ("'normalised, dry'", *rates))
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        ["wear.tooth_hardness=hardened"],  # 39 * 7.5e-11 = 2.9e-9, below 1e-8
+        ["wear.tooth_hardness=normalised", "lubrication.dry_factor=19.9"],  # 9.95e-9
+        ["wear.specific_wear_rate_mm2_per_N=5e-10"],
+    ],
+)
+def test_other_teeth_that_dry_out_are_not_warned_of(settings: list[str]) -> None:
+    assert not dried_teeth(STRAND, *settings)
+
+
 def test_gears_take_their_own_numbers_only() -> None:
     case = CASES / "fzg-c14-16t-mild.toml"
     for setting, words in (

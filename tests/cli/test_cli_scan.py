@@ -162,16 +162,16 @@ REFUSED = {
     "a landscape": (lambda: grey(landscape()), "all teeth must be in the picture"),
     "floating point": (lambda: Image.fromarray(disc(300, 300, 200).astype(np.float32)), "8 or 16 bits"),
     "no two shades": (lambda: grey(np.full((400, 400), 0.5)), "no two shades"),
-    "a disc": (lambda: grey(disc(300, 300, 200)), "no teeth that repeat"),
+    "a disc": (lambda: grey(disc(300, 300, 200)), "no repeating teeth"),
     "two wheels": (
         lambda: Image.fromarray(
             np.hstack(
                 [np.asarray(picture(OUTLINE, Camera(size=(400, 400), turn=turn))) for turn in (0.0, 0.1)]
             )
         ),
-        "two things of its size",
+        "two objects of its size",
     ),
-    "seen from the side": (lambda: picture(OUTLINE, Camera(tilt=1.0)), "seen along its axis"),
+    "seen from the side": (lambda: picture(OUTLINE, Camera(tilt=1.0)), "photographed along its axis"),
     "cut off": (lambda: picture(OUTLINE, Camera(centre=(0.2, 0.5))), "all teeth must be in the picture"),
     "too small": (lambda: grey(disc(50, 50, 30, 100)), "at least 200 pixels"),
     "out of focus": (lambda: picture(OUTLINE, Camera(size=(400, 400), blur=3.0)), "a pitch must be at least"),

@@ -117,6 +117,26 @@ def test_death_of_workers_loses_and_repeats_nothing(cases):
     assert sorted(workers.shards) == [0, 3, 6, 9]
 
 
+class DyingEarly(Dying):
+    """Workers that are found dead when one of the first shards is given to them."""
+
+    def submit(self, function, shard):
+        if self.deaths < self.most_deaths and shard.first == 6:
+            self.deaths += 1
+            raise ConnectionError
+        self.shards.append(shard.first)
+        future = Future()
+        future.set_result(function(shard))
+        return future
+
+
+def test_death_before_a_shard_is_given_loses_and_repeats_nothing(cases):
+    workers = DyingEarly(most_deaths=1)
+    assert same(run_study(cases, workers), run_study(cases, Threads(1)))
+    assert (workers.deaths, workers.opened) == (1, 2)
+    assert sorted(workers.shards) == [0, 3, 6, 9]
+
+
 def test_workers_stay_open_until_one_dies(cases):
     workers = Dying(most_deaths=2)
     kept = SharedWorkers(workers)

@@ -28,7 +28,7 @@ from wearsim.geometry.forms import TOOTH_FORMS
 from wearsim.input.document import Document
 from wearsim.input.faults import Faults
 from wearsim.input.mechanism_registry import is_whole_drive, mechanism_of
-from wearsim.lubrication.read import lubrication_input
+from wearsim.lubrication.read import lubrication_input, warn_of_dried_teeth
 
 _DEEP = 0.3
 """Critical depth over tooth thickness above which the tooth itself is in doubt."""
@@ -103,6 +103,8 @@ def complete_case(tables: CaseTables, document: Document, build: Builder) -> Cas
     lubrication = lubrication_input(
         case, tables.lubrication, per_hour, wear_table.condition, wear_table.tooth_hardness
     )
+    if wear_table.condition is not None and wear_table.specific_wear_rate_mm2_per_N is None:
+        warn_of_dried_teeth(case, lubrication, wear_table.condition)
     if drive is None or duty is None or faults.count > before:
         return None
     return Case(

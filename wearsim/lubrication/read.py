@@ -86,6 +86,22 @@ def _say_coefficients(case: CaseRecord, row: Lubricant, condition: str | None, h
     )
 
 
+def warn_of_dried_teeth(case: CaseRecord, given: LubricationInput | None, condition: str) -> None:
+    """Say where teeth that have dried out wear faster than dry ones of their hardness in the table."""
+    rows = wear_conditions()
+    dry = rows.get(f"{condition.split(', ')[0]}, dry")
+    if given is None or given.is_constant or dry is None:
+        return
+    dried = given.dry_factor * rows[condition].typical
+    if rows[condition].lubricated and dried > dry.typical:
+        case.warnings.append(
+            f"lubrication.dry_factor = {given.dry_factor:g} is that of all contacts: teeth that have dried "
+            f"out wear at {dried:.3g} mm2/N, teeth of wear condition {dry.condition!r} at "
+            f"{dry.typical:.3g} mm2/N; the life of the teeth may be up to {dried / dry.typical:.3g} times "
+            "too short"
+        )
+
+
 class _Reader:
     """Completes a table of lubrication."""
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from contextlib import suppress
 from itertools import islice
 
 import pandas as pd
@@ -89,7 +90,7 @@ def _run(waiting: list[Shard], workers: Workers) -> Iterator[tuple[Shard, Rows]]
     """Give shards as they are finished, until all are or a worker has died."""
     remaining = iter(waiting)
     with workers.open() as (executor, count):
-        futures = dict(_submitted(executor, islice(remaining, (1 + _AHEAD) * count)))
+        futures = _submitted(executor, workers, islice(remaining, (1 + _AHEAD) * count))
         try:
             while futures:
                 finished, _ = wait(futures, return_when=FIRST_COMPLETED)
@@ -104,14 +105,19 @@ def _run(waiting: list[Shard], workers: Workers) -> Iterator[tuple[Shard, Rows]]
                         yield shard, rows
                 if lost:
                     remaining = iter(())
-                futures |= _submitted(executor, islice(remaining, len(finished)))
+                futures |= _submitted(executor, workers, islice(remaining, len(finished)))
         finally:
             for future in futures:
                 future.cancel()
 
 
-def _submitted(executor: Executor, shards: Iterator[Shard]) -> dict["Future[Rows]", Shard]:
-    return {executor.submit(run_shard, shard): shard for shard in shards}
+def _submitted(executor: Executor, workers: Workers, shards: Iterator[Shard]) -> dict["Future[Rows]", Shard]:
+    """Submit shards, no more once a worker has died: those are run when workers are opened again."""
+    found = {}
+    with suppress(*workers.losses):
+        for shard in shards:
+            found[executor.submit(run_shard, shard)] = shard
+    return found
 
 
 def _table(design: Design, parts: list[Rows]) -> pd.DataFrame:

@@ -164,7 +164,7 @@ def scan(
 
     The new form comes from a case, or from a chain whose sprocket has a standard form. It gives the scale
     too, unless one of bore, scale and dpi is given, or the sprocket lies on a marker sheet of
-    ``wearsim scan --sheet``, which is found by itself.
+    ``wearsim scan --sheet``, which is detected automatically.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ def scan(
     profile : str, optional
         ``iso606``, ``ansi_b29`` or ``gost591``, with a chain; by default that of the chain's series.
     bore : float, optional
-        Diameter of the bore [mm], where it is seen as a hole.
+        Diameter of the bore [mm], if it shows as a hole.
     scale : tuple of float, optional
         Two points of the picture x1, y1, x2, y2 [px] in the plane of the teeth, and their distance [mm].
     dpi : float, optional
@@ -223,7 +223,7 @@ def scan(
     if (case is None) == (chain is None):
         raise TypeError("scan: must be given the new form, by a case or by a chain")
     if case is not None and (teeth is not None or profile is not None):
-        raise TypeError("scan: teeth and profile belong to a chain, a case says its own")
+        raise TypeError("scan: teeth and profile belong to a chain, a case has its own")
     if sum(one is not None for one in (bore, scale, dpi)) > 1:
         raise TypeError("scan: must be given at most one of bore, scale and dpi")
     numbers = {"bore": bore, "dpi": dpi, "ruler": ruler, "thickness": thickness, "hours": hours}
@@ -285,7 +285,7 @@ def _with_hours(
         return replace(found, hours=hours)
     depths = found.depths
     if not found.is_worn:
-        text = "the depth is within its error, so no remaining hours follow: measure later, or from nearer"
+        text = "the depth is within its error, so there are no remaining hours: measure later, or from closer"
         return replace(found, hours=hours, warnings=(*found.warnings, text))
     reading = SingleReading(DEPTH, depths.depth, SURE * depths.depth_error, hours)
     try:

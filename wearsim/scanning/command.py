@@ -54,7 +54,7 @@ class _ScalePoints(click.ParamType[Any]):
     type=click.Path(path_type=Path),
     metavar="FILE",
     help="Without PHOTO: new file (.pdf, .svg or .png) for a marker sheet to print and lay under a sprocket. "
-    "In a PHOTO it is found by itself, and gives scale, perspective and lens distortion.",
+    "In a PHOTO it is detected automatically and gives scale, perspective and lens distortion.",
 )
 @click.option("--paper", type=click.Choice(tuple(PAPERS)), help="Paper of --sheet; default: a4.")
 @click.option("--case", type=CasePath(path_type=Path), metavar="CASE", help="Case of the sprocket's drive.")
@@ -138,8 +138,8 @@ def scan(
 
     --sheet FILE, without PHOTO, writes a marker sheet to lay under the wheel.
 
-    Photograph the bare wheel along its axis, from far away, dark on a bright ground or the other way
-    round, with all teeth in the picture. Its new form comes from --case, or from --chain for a standard
+    Photograph the bare wheel along its axis, from far away, dark on a bright background or the
+    reverse, with all teeth in the picture. Its new form comes from --case, or from --chain for a standard
     sprocket. The picture does not leave this computer.
     """
     if sheet is not None:
@@ -190,7 +190,7 @@ def _check_beside_sheet(context: click.Context) -> None:
         name = option.name or ""
         is_given = context.get_parameter_source(name) is ParameterSource.COMMANDLINE
         if is_given and name not in _BESIDE_SHEET:
-            raise click.UsageError(f"{option.opts[0]} belongs to a PHOTO: leave it out beside --sheet")
+            raise click.UsageError(f"{option.opts[0]} belongs to a PHOTO: leave it out with --sheet")
 
 
 def _write_sheet(place: Path, paper: str, force: bool) -> None:

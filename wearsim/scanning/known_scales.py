@@ -43,13 +43,15 @@ def by_points(photograph: Photograph, points: tuple[float, float, float, float],
     size = np.array([photograph.width, photograph.height])
     if not ((ends >= 0.0) & (ends <= size)).all():
         text = (
-            f"the points of the scale must lie in the picture of {size[0]} x {size[1]} pixels: read them anew"
+            f"the points of the scale must lie in the picture of {size[0]} x {size[1]} pixels: "
+            "read them again"
         )
         raise bad_photograph(photograph.name, text)
     pixels = math.dist(*ends)
     if pixels < 20.0:
         text = (
-            f"the points of the scale must be well apart, but are {pixels:.0f} pixels: take two farther apart"
+            f"the points of the scale must be well apart, but are {pixels:.0f} pixels: choose two "
+            "farther apart"
         )
         raise bad_photograph(photograph.name, text)
 
@@ -72,10 +74,10 @@ def by_bore(photograph: Photograph, seen: Silhouette, root_radius: float, bore: 
         if rough is None or not 0.7 < 2.0 * rough / bore < 1.4:
             hole = "there is none"
             if rough is not None:
-                hole = f"the one that is seen has {2.0 * rough:.4g} mm by the pitch"
+                hole = f"the hole found measures {2.0 * rough:.4g} mm by the pitch"
             raise bad_photograph(
                 photograph.name,
-                f"the bore must be seen as a hole of {bore:g} mm around the centre, but {hole}: check its "
+                f"the bore must show as a hole of {bore:g} mm around the centre, but {hole}: check its "
                 "diameter, the chain and the teeth, or leave it out",
             )
         radius = rough * np.ones(_DIRECTIONS)

@@ -115,15 +115,14 @@ def _check_fit(photograph: Photograph, depths: FlankDepths) -> None:
     if depths.other_depth > max(_OTHER * depths.depth, 0.0) + doubtful:
         raise bad_photograph(
             photograph.name,
-            "the wheel must have the new form that is said but for its wear, but neither flank of its teeth "
-            f"has ({depths.other_depth:.2g} mm are missing on the one that is to be the less worn): check "
-            "chain and profile, and whether it is a sprocket",
+            "one flank of the teeth must fit the given new form, but neither does (the less worn one "
+            f"deviates by {depths.other_depth:.2g} mm): check chain and profile, and that it is a sprocket",
         )
     share = depths.seen_share
     if not share > 0.5:
         raise bad_photograph(
             photograph.name,
-            f"the worn flank must be seen, but only {100.0 * share:.0f} % of it lies near the new form: "
+            f"the worn flank must be visible, but only {100.0 * share:.0f} % of it lies near the new form: "
             "check chain and profile, clean the wheel, and light it without shadows",
         )
 
@@ -138,18 +137,18 @@ def _warnings(depths: FlankDepths) -> Iterator[str]:
         )
     if abs(place.bias) > 3.0 * edge_bias(place.blur, place.edge_misfit):
         yield (
-            f"edges lie {place.bias:+.2f} pixels off the new form all around: check chain and profile, or "
-            "light the wheel from all sides"
+            f"edges deviate by {place.bias:+.2f} pixels from the new form all around: check chain and "
+            "profile, or light the wheel from all sides"
         )
     if place.edge_misfit > _UNCLEAR:
         yield (
-            "edges are no plain step from steel to ground (bright rims, shadows, or sharpening by the "
-            "camera), so that the depth is less certain: light the wheel from behind, or from all sides"
+            "edges between steel and background are not clean (bright rims, shadows, or sharpening by the "
+            "camera), so the depth is less certain: light the wheel from behind, or from all sides"
         )
     if depths.both_worn:
         yield (
-            f"both flanks are worn ({depths.other_depth:.2g} mm on the other one), so that little is left to "
-            "place the wheel by, or the profile is another: the sum of both depths is more certain than each"
+            f"both flanks are worn ({depths.other_depth:.2g} mm on the other one), so little is left to "
+            "locate the wheel, or the profile is wrong: the sum of both depths is more certain than either"
         )
     yield from _scale_warnings(place)
     if depths.seen_share < _SEEN:
@@ -158,7 +157,7 @@ def _warnings(depths: FlankDepths) -> Iterator[str]:
             "and avoid shadows"
         )
     if depths.depth > 0.8 * SEARCH * place.wheel.pitch:
-        yield f"edges are looked for down to {SEARCH * place.wheel.pitch:.2g} mm: the wear may be deeper"
+        yield f"edges are searched down to {SEARCH * place.wheel.pitch:.2g} mm: the wear may be deeper"
 
 
 def _scale_warnings(place: Placement) -> Iterator[str]:

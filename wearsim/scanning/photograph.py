@@ -117,7 +117,7 @@ def _check_kind(picture: Image.Image, path: Path) -> None:
         text = f"must be one picture, but holds {pages}: save that of the wheel alone"
         raise bad_photograph(str(path), text)
     if picture.mode == "F":
-        text = "must have 8 or 16 bits for a shade, but has floating-point numbers: save it as PNG"
+        text = "must have 8 or 16 bits per channel, but has floating-point numbers: save it as PNG"
         raise bad_photograph(str(path), text)
 
 

@@ -340,8 +340,8 @@ class _Fit:
             raise bad_photograph(
                 self.name,
                 f"a pitch must be at least {least:.0f} pixels long, {_LEAST_PITCH:.0f} times the blur of "
-                f"{self.blur:.1f} pixels, but has {pixels:.0f}: go nearer, focus on the teeth, or use a "
-                "camera of more pixels",
+                f"{self.blur:.1f} pixels, but has {pixels:.0f}: go closer, focus on the teeth, or use a "
+                "camera with more pixels",
             )
 
     def _lacks_more_on_left(self, edges: Edges) -> bool:

@@ -94,7 +94,7 @@ def scan_findings(found: ScannedWheel) -> Iterator[Finding]:
     """Return what is said of the teeth, their depth and the picture."""
     depths, place, wheel = found.depths, found.depths.place, found.wheel
     teeth = depths.of_teeth[np.isfinite(depths.of_teeth)]
-    yield Finding("Teeth", f"{wheel.teeth} " + ("as said and seen" if wheel.per_case else "counted"))
+    yield Finding("Teeth", f"{wheel.teeth} " + ("as given, and counted" if wheel.per_case else "counted"))
     if found.is_worn:
         yield Finding("Worn flank", f"the one that faces {depths.facing}, as seen in the picture")
         yield Finding(
@@ -104,7 +104,7 @@ def scan_findings(found: ScannedWheel) -> Iterator[Finding]:
         )
     else:
         least = max(depths.depth, 0.0) + SURE * depths.depth_error
-        yield Finding("Depth", f"no wear that can be told from none: at most {least:.3f} mm")
+        yield Finding("Depth", f"no measurable wear: at most {least:.3f} mm")
     yield Finding(
         "Each tooth",
         f"{teeth.min():.3f} to {teeth.max():.3f} mm there, standard deviation {teeth.std():.3f} mm",

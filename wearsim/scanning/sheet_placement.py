@@ -29,7 +29,7 @@ _UNEVEN = (0.1, 0.5)
 _THICKEST = 0.1
 """Largest thickness of the teeth over the height of the camera."""
 
-_REMEDY = "measure the ruler of the print and give it by --ruler-mm, and check the chain"
+_REMEDY = "measure the printed ruler, give its length with --ruler-mm, and check the chain"
 
 _UNKNOWN_HEIGHT = 0.1
 """Standard deviation of the camera's height, relative, from which the height itself is doubtful."""
@@ -86,7 +86,7 @@ class SeenSheet:
     def _remedy(self) -> str:
         if self.camera.height_error < _UNKNOWN_HEIGHT:
             return _REMEDY
-        lens = "take a picture that notes the focal length, as the height of the camera is not certain"
+        lens = "use a picture that states the focal length, as the height of the camera is uncertain"
         return f"{lens}; {_REMEDY}"
 
     def camera_over(self, wheel: NewWheel) -> KnownCamera:
@@ -156,7 +156,7 @@ def find_sheet(photograph: Photograph, ruler: float | None = None) -> SeenSheet 
             return None
         raise bad_photograph(
             photograph.name,
-            "the marker sheet must be seen where its ruler is given, but too few of its dots are: photograph "
+            "the marker sheet must be visible if its ruler is given, but too few dots were found: photograph "
             "at least half of it without shadows, or leave the ruler out",
         )
     if markers.other >= _SECOND:
@@ -171,8 +171,8 @@ def find_sheet(photograph: Photograph, ruler: float | None = None) -> SeenSheet 
     if sheet.scatter > _UNEVEN[1]:
         raise bad_photograph(
             photograph.name,
-            f"the marker sheet must be flat, but its dots lie {sheet.scatter:.2g} mm off: lay it on a hard "
-            "table, and press it down at its edges",
+            f"the marker sheet must be flat, but its dots deviate by {sheet.scatter:.2g} mm: lay it on "
+            "a hard table, and press it down at its edges",
         )
     return sheet
 
@@ -182,14 +182,14 @@ def check_thickness(thickness: float, sheet: SeenSheet | None, photograph: str) 
     if sheet is None:
         raise bad_photograph(
             photograph,
-            "a marker sheet must be seen where the thickness of the teeth is given, but too few of its dots "
-            "are: photograph at least half of it without shadows, or leave the thickness out",
+            "a marker sheet must be visible if the thickness of the teeth is given, but too few dots were "
+            "found: photograph at least half of it without shadows, or leave the thickness out",
         )
     if thickness > _THICKEST * sheet.height:
         raise bad_photograph(
             photograph,
             f"the teeth must be thinner than {_THICKEST * sheet.height:.0f} mm below a camera "
-            f"{sheet.height:.0f} mm above the sheet, but {thickness:g} mm are given: correct the thickness",
+            f"{sheet.height:.0f} mm above the sheet, but {thickness:g} mm is given: correct the thickness",
         )
 
 
@@ -198,9 +198,9 @@ def height_warning(sheet: SeenSheet) -> str:
     if sheet.camera.height_error < _UNKNOWN_HEIGHT:
         return ""
     return (
-        "the height of the camera is not certain, as the picture notes no focal length and is hardly tilted: "
-        "what shows of the sides of thick teeth may change the depth by more than its standard error; take "
-        "the picture of the camera itself, not a copy without its data"
+        "the height of the camera is uncertain, as the picture states no focal length and is hardly tilted: "
+        "visible sides of thick teeth may change the depth by more than its standard error; use the "
+        "original file from the camera, not a copy without its metadata"
     )
 
 
@@ -209,8 +209,8 @@ def uneven_warning(sheet: SeenSheet) -> str:
     if sheet.scatter <= _UNEVEN[0]:
         return ""
     return (
-        f"the marker sheet is not flat, or badly printed: its dots lie {sheet.scatter:.2g} mm off; lay it "
-        "on a hard table, or print it anew"
+        f"the marker sheet is not flat, or badly printed: its dots deviate by {sheet.scatter:.2g} mm; lay "
+        "it on a hard table, or print it again"
     )
 
 

@@ -73,7 +73,7 @@ def find_silhouette(photograph: Photograph) -> Silhouette:
     if math.sqrt(values[0] / values[1]) < _LEAST_ROUND:
         raise bad_photograph(
             photograph.name,
-            "the wheel must be seen along its axis, but what is found is "
+            "the wheel must be photographed along its axis, but its outline is "
             f"{math.sqrt(values[0] / values[1]):.2f} times as high as wide: lay the wheel flat and hold the "
             "camera straight above its bore",
         )
@@ -112,7 +112,7 @@ def _dark_side(smooth: Light, name: str) -> Mask:
     if not dark.any() or bright - low < _LEAST_CONTRAST * bright:
         raise bad_photograph(
             name,
-            "the wheel must stand out from what lies behind it, but the picture has no two shades: lay it on "
+            "the wheel must contrast with its background, but the picture has no two shades: lay it on "
             "white paper, or on black cloth if it is bright",
         )
     border = np.concatenate([dark[0], dark[-1], dark[:, 0], dark[:, -1]])
@@ -166,7 +166,7 @@ def _largest(wheel: Mask, name: str) -> Mask:
         raise bad_photograph(
             name,
             f"a wheel must fill at least {100 * _LEAST_AREA:.0f} % of the picture, but nothing of that size "
-            "is found: go nearer, or crop the picture to the wheel",
+            "was found: go closer, or crop the picture to the wheel",
         )
     others = np.where(np.arange(1, areas.size + 1) == first, 0, areas)
     inside = np.unique(labels[filled])
@@ -174,13 +174,13 @@ def _largest(wheel: Mask, name: str) -> Mask:
     if others.max() > _SECOND * area:
         raise bad_photograph(
             name,
-            "one wheel must be in the picture, but there are two things of its size: crop it to one wheel",
+            "one wheel must be in the picture, but there are two objects of its size: crop it to one wheel",
         )
     if filled[0].any() or filled[-1].any() or filled[:, 0].any() or filled[:, -1].any():
         raise bad_photograph(
             name,
-            "all teeth must be in the picture with some ground around them, but what is found runs into its "
-            "edge: go farther away, or remove what touches the wheel",
+            "all teeth must be in the picture with some background around them, but the outline reaches its "
+            "edge: go farther away, or remove anything that touches the wheel",
         )
     return filled
 
@@ -209,13 +209,13 @@ def _count_teeth(radii: Vector, name: str) -> tuple[int, float]:
     if height < 0.02 or periodic < _PERIODIC or teeth < 5:
         raise bad_photograph(
             name,
-            "a toothed wheel must be in the picture, but the outline that is found has no teeth that repeat: "
-            "lay the wheel alone on plain ground, without its chain, seen along its axis",
+            "a toothed wheel must be in the picture, but the outline found has no repeating teeth: lay the "
+            "wheel alone on a plain background, without its chain, and photograph it along its axis",
         )
     if crossings != 2 * teeth:
         raise bad_photograph(
             name,
             f"the teeth must be countable, but the outline repeats {teeth} times and has {crossings // 2} "
-            "teeth: take the chain off, clean the wheel, remove what lies at its teeth, and avoid shadows",
+            "teeth: remove the chain and anything at the teeth, clean the wheel, and avoid shadows",
         )
     return teeth, float(-np.angle(waves[teeth]) + math.pi) / teeth
