@@ -119,7 +119,7 @@ def leaves(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, A
     for name, value in tables.items():
         if isinstance(value, Mapping):
             yield from leaves(value, f"{prefix}{name}.")
-        elif isinstance(value, list | tuple) and value and isinstance(value[0], Mapping):
+        elif isinstance(value, list | tuple) and value and all(isinstance(one, Mapping) for one in value):
             for number, entry in enumerate(value, start=1):
                 yield from leaves(entry, f"{prefix}{name}.{number}.")
         else:

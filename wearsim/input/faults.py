@@ -264,7 +264,7 @@ def _line_of_value(text: str, parts: list[str]) -> int:
     if isinstance(value, AoT):
         return _line_of_header(text, ".".join(parts))
     if isinstance(value, Mapping) and value:
-        lines = [_line_of_value(text, [*parts, name]) for name in value]
+        lines = [_line_of_value(text, [*parts, name]) for name in [*value]]
         return min((line for line in lines if line), default=0)
     place[parts[-1]] = _MARK  # type: ignore[index]
     dumped = tomlkit.dumps(document)
