@@ -152,8 +152,8 @@ def landscape():
 
 
 REFUSED = {
-    "a gear": (lambda: picture(gear(30), Camera(size=(800, 800))), "neither flank of its teeth has"),
-    "another gear": (lambda: picture(gear(19), Camera(size=(800, 800))), "neither flank of its teeth has"),
+    "a gear": (lambda: picture(gear(30), Camera(size=(800, 800))), "but neither does"),
+    "another gear": (lambda: picture(gear(19), Camera(size=(800, 800))), "but neither does"),
     "a chain on it": (
         lambda: picture(OUTLINE, Camera(size=(800, 800)), chain_on(12.7, 8.51, 19, 6)),
         "chain",

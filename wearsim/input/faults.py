@@ -4,7 +4,6 @@ import difflib
 import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
-from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin
 
@@ -239,7 +238,6 @@ def line_of(text: str, key: str) -> int:
     return line
 
 
-@lru_cache(maxsize=1)
 def _document(text: str) -> Any:
     import tomlkit
 
@@ -268,7 +266,6 @@ def _line_of_value(text: str, parts: list[str]) -> int:
         return min((line for line in lines if line), default=0)
     place[parts[-1]] = _MARK  # type: ignore[index]
     dumped = tomlkit.dumps(document)
-    place[parts[-1]] = value  # type: ignore[index]
     marked = tomlkit.item(_MARK).as_string()
     before, found, _ = dumped.partition(marked)
     return before.count("\n") + 1 if found else 0
