@@ -75,12 +75,12 @@ def given_lines(path: Path) -> list[tuple[int, list[str]]]:
 def check_free(path: Path, force: bool) -> None:
     """Raise where something is in the way."""
     try:
-        path.resolve()
+        with contextlib.suppress(FileNotFoundError, NotADirectoryError, ValueError):
+            path.stat()  # raises for links in a loop, of which exists() is silent
         taken = path.exists()
         file = next((parent for parent in path.parents if parent.is_file()), None)
-    except (OSError, RuntimeError) as error:  # the latter of links in a loop, until Python 3.13
-        reason = getattr(error, "strerror", None) or error
-        raise OutputError(f"{path}: must be reachable: {reason}") from None
+    except OSError as error:
+        raise OutputError(f"{path}: must be reachable: {error.strerror}") from None
     if file is not None:
         raise OutputError(f"{path}: must lie in a folder, but {file} is a file: choose another place")
     if taken and not force:

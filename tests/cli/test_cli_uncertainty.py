@@ -232,6 +232,7 @@ def test_bounds_do_not_converge(cli, case):
 
 def test_errors_that_miss_their_tolerance_are_told_with_what_they_do_to_the_percentiles(cli, case, tmp_path):
     """Percentiles rise with every life: all lives lower, or higher, by their errors are the ends."""
+    pytest.importorskip("pyarrow", reason="pyarrow is not installed")
     more = SCATTER % 0.3 + "[run]\nlife_tolerance = 1e-5\n"
     done = cli("uncertainty", case(more), "--samples", 16, "--out", tmp_path / "out", "--json")
     with (tmp_path / "out" / "cases.csv").open(newline="", encoding="utf-8") as file:

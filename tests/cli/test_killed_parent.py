@@ -10,10 +10,11 @@ from pathlib import Path
 import pytest
 
 PARENT = """
-import os, time
+import os, signal, time
 from wearsim.runner.workers import Processes
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)  # what starts the tests, such as nohup, may ignore it
     with Processes(2).open() as (pool, count):
         pids = {pool.submit(os.getpid).result() for _ in range(20)}
         for _ in range(count):

@@ -11,6 +11,6 @@ def test_a_perforated_plate_larger_than_any_sheet():
     picture = Image.new("L", (1600, 1600), 230)
     draw = ImageDraw.Draw(picture)
     for x, y in np.ndindex(46, 46):
-        draw.circle((40 + 33 * x, 40 + 33 * y), 10, fill=20)
+        draw.ellipse((30 + 33 * x, 30 + 33 * y, 50 + 33 * x, 50 + 33 * y), fill=20)
     light = (np.asarray(picture) / 255.0).astype(np.float32)
     assert find_markers(Photograph("plate.png", light)) is None

@@ -238,17 +238,12 @@ def line_of(text: str, key: str) -> int:
     return line
 
 
-def _document(text: str) -> Any:
-    import tomlkit
-
-    return tomlkit.parse(text)
-
-
 def _line_of_value(text: str, parts: list[str]) -> int:
     import tomlkit
     from tomlkit.items import AoT
 
-    document = place = _document(text)
+    document: Any = tomlkit.parse(text)
+    place = document
     for part in parts[:-1]:
         if isinstance(place, list) and is_number(part) and 0 < int(part) <= len(place):
             place = place[int(part) - 1]
@@ -262,7 +257,7 @@ def _line_of_value(text: str, parts: list[str]) -> int:
     if isinstance(value, AoT):
         return _line_of_header(text, ".".join(parts))
     if isinstance(value, Mapping) and value:
-        lines = [_line_of_value(text, [*parts, name]) for name in [*value]]
+        lines = [_line_of_value(text, [*parts, name]) for name in value]
         return min((line for line in lines if line), default=0)
     place[parts[-1]] = _MARK  # type: ignore[index]
     dumped = tomlkit.dumps(document)

@@ -27,7 +27,7 @@ _BESIDE_SHEET = ("sheet", "paper", "force", "quiet", "debug")
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
 
-class _ScalePoints(click.ParamType):
+class _ScalePoints(click.ParamType):  # type: ignore[type-arg]  # generic in newer click only
     """Two points of a picture and how far they are apart."""
 
     name = "points"
