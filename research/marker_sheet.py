@@ -77,7 +77,7 @@ def trial(seed: int, sheet: Path) -> Trial:
     exif = Image.Exif()
     if noted := seed % 2 == 0:
         full_frame = SCALE * away * math.hypot(24.0, 36.0) / math.hypot(*SIZE)
-        exif.get_ifd(ExifTags.IFD.Exif)[ExifTags.Base.FocalLengthIn35mmFilm] = round(full_frame)
+        exif[ExifTags.IFD.Exif] = {ExifTags.Base.FocalLengthIn35mmFilm: round(full_frame)}
     path = sheet.parent / "wheel.jpg"
     picture(outline, camera).save(path, exif=exif, quality=int(rng.integers(80, 98)))
     return measured(path, camera, radius, depth, noted)

@@ -63,7 +63,7 @@ def scanned(tmp_path):
         focal_length = SCALE * 2.0 * RADIUS * camera.distance
         exif = Image.Exif()
         noted = focal_length * math.hypot(24.0, 36.0) / math.hypot(*SIZE)
-        exif.get_ifd(ExifTags.IFD.Exif)[ExifTags.Base.FocalLengthIn35mmFilm] = round(noted)
+        exif[ExifTags.IFD.Exif] = {ExifTags.Base.FocalLengthIn35mmFilm: round(noted)}
         picture(OUTLINE, camera).save(tmp_path / "wheel.jpg", exif=exif, quality=97)
         return wearsim.scan(tmp_path / "wheel.jpg", **{"chain": "08B", **options})
 
