@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import click
+from click.core import ParameterSource
 
 from wearsim.command.complete import complete_setting
 from wearsim.errors import CaseError, Fault, GeometryError, OutputError, WearsimError
@@ -93,6 +94,12 @@ def explain_option(function: Function) -> Function:
     return click.option(
         "--explain", is_flag=True, help="Print every assumption and default instead of their number."
     )(function)
+
+
+def given_parameters(context: click.Context) -> list[click.Parameter]:
+    """Return what is on the command line, not what is left to its default."""
+    by_hand = ParameterSource.COMMANDLINE
+    return [one for one in context.command.params if context.get_parameter_source(one.name or "") is by_hand]
 
 
 def warn(text: str) -> None:

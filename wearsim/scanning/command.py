@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import click
-from click.core import ParameterSource
 
 from wearsim.command.answered import Shown, shown_options
 from wearsim.command.cases_and_runs import one_sprocket
@@ -13,6 +12,7 @@ from wearsim.command.complete import CasePath, complete_chain
 from wearsim.command.options import (
     common_options,
     finite,
+    given_parameters,
     keeping_runs,
     load_cases,
     overrides,
@@ -186,10 +186,8 @@ def scan(
 
 def _check_beside_sheet(context: click.Context) -> None:
     """Raise for an option that does not say how a sheet is written."""
-    for option in context.command.params:
-        name = option.name or ""
-        is_given = context.get_parameter_source(name) is ParameterSource.COMMANDLINE
-        if is_given and name not in _BESIDE_SHEET:
+    for option in given_parameters(context):
+        if option.name not in _BESIDE_SHEET:
             raise click.UsageError(f"{option.opts[0]} belongs to a PHOTO: leave it out with --sheet")
 
 

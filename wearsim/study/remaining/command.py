@@ -4,13 +4,13 @@ from pathlib import Path
 from typing import Any
 
 import click
-from click.core import ParameterSource
 
 from wearsim.command.answered import Shown, shown_options
 from wearsim.command.complete import CasePath, ReadingsPath
 from wearsim.command.options import (
     common_options,
     finite,
+    given_parameters,
     keeping_runs,
     load_cases,
     overrides,
@@ -164,6 +164,5 @@ def remaining(
 
 def _says_error() -> bool:
     """Whether the user gives the error of a reading."""
-    context = click.get_current_context()
-    names = ("reading_error_mm", "reading_error_percent")
-    return any(context.get_parameter_source(name) is ParameterSource.COMMANDLINE for name in names)
+    given = given_parameters(click.get_current_context())
+    return any(one.name in ("reading_error_mm", "reading_error_percent") for one in given)

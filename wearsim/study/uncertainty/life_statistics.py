@@ -66,6 +66,8 @@ class UncertaintyAnswer:
         A percentile rises with every life, so that the lives at the ends of their errors bound it.
         """
         missed = missed_tolerance(self.sound)
+        if not missed:
+            return ""
         error = self.sound["numerical_error"].to_numpy(float)
         ends = [
             [
@@ -79,7 +81,7 @@ class UncertaintyAnswer:
             for one, (low, high) in zip(self.percentiles, ends, strict=True)
             if one.known
         )
-        return missed and f"{missed}" + (f"; with the errors of all, {spans}" if spans else "")
+        return f"{missed}; with the errors of all, {spans}" if spans else missed
 
     @property
     def ends_first(self) -> dict[str, float]:
