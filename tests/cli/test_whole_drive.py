@@ -346,6 +346,11 @@ speed_rpm = 300
             "must be one line without leading or trailing blanks (got ' roll')",
         ),
         (('name = "roll"', 'name = "ro\\nll"'), 9, "must be one line without leading or trailing blanks"),
+        (
+            ('name = "roll"', 'name = "=1+1"'),
+            9,
+            "must not begin with =, +, - or @, like a spreadsheet formula",
+        ),
         (('name = "roll"', 'name = "Chain"'), 9, "the chain is a part too"),
         (("links = 110", "links = 110\nmate_teeth = 20"), 15, "the other [[sprocket]] gives this"),
         (("links = 110", "links = 12"), 14, "drive layout: "),

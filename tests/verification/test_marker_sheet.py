@@ -102,7 +102,7 @@ def test_scale_tilt_lens_and_depth(scanned, sheet):
     assert "by the marker sheet" in found.text
 
 
-@pytest.mark.wide
+@pytest.mark.slow
 def test_standard_errors_of_30_prints(scanned, sheet):
     """Printers stretch by 0.2 % (standard deviation), as is assumed; chamfers take up to a quarter."""
     over = []

@@ -101,7 +101,7 @@ class DriveCase(ReadTables):
         Returns
         -------
         DriveCase
-            Complete as if it had been written so; its title tells the changes.
+            Complete as if it had been written so; its title names the changes.
 
         Raises
         ------

@@ -159,6 +159,10 @@ def _check_names(wheels: Sequence[DriveWheel], faults: Faults) -> None:
         key = f"sprocket.{number}.name"
         if wheel.name != wheel.name.strip() or not wheel.name.isprintable():
             faults.add(key, f"must be one line without leading or trailing blanks (got {wheel.name!r})")
+        if wheel.name.startswith(("=", "+", "-", "@")):
+            faults.add(
+                key, f"must not begin with =, +, - or @, like a spreadsheet formula (got {wheel.name!r})"
+            )
         if wheel.name.lower() == "chain":
             faults.add(key, "must be another name: the chain is a part too")
         names = {wheel.name, *wheel.parts}

@@ -36,7 +36,7 @@ def lubricant(
     wear_condition : str
         From ``wearsim list wear-conditions``: it gives the wear coefficients while the lubricant is fresh.
     source : str
-        Where the numbers come from; it stands among the assumptions of every life.
+        Where the numbers come from; it is listed among the assumptions of every life.
     supply : str, optional
         ``"applied"`` now and then, ``"continuous"``, or ``"none"``.
     lasts_sliding_m : float, optional

@@ -144,8 +144,22 @@ def in_currency(head: str, currency: str | None) -> str:
 
 
 def csv_of(frame: "pd.DataFrame") -> str:
-    """Return a table of pandas as the content of a file."""
-    return frame.to_csv(index=False, lineterminator="\n")
+    """Return a table of pandas as the content of a file, with no text that a spreadsheet would calculate."""
+    from pandas.api.types import is_numeric_dtype
+
+    texts = {name: column.map(_no_formula) for name, column in frame.items() if not is_numeric_dtype(column)}
+    return frame.assign(**texts).to_csv(index=False, lineterminator="\n")
+
+
+def _no_formula(cell: Any) -> Any:
+    """Return a cell with an apostrophe before what a spreadsheet would calculate (OWASP, "CSV Injection")."""
+    if not isinstance(cell, str) or not cell.startswith(("=", "+", "-", "@", "\t", "\r")) or cell == "-":
+        return cell
+    try:
+        float(cell)
+    except ValueError:
+        return f"'{cell}"
+    return cell
 
 
 def records_of(frame: "pd.DataFrame") -> list[dict[str, Any]]:

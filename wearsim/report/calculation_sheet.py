@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.files import new_folder
-from wearsim.report.answer_table import AnswerTable
+from wearsim.report.answer_table import AnswerTable, csv_of
 from wearsim.report.text_lines import answer_text, assumed
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ class CalculationSheet:
             (place / "result.json").write_text(content + "\n", encoding="utf-8")
             for name, table in self.tables().items():
                 frame = table.frame() if isinstance(table, AnswerTable) else table
-                frame.to_csv(place / f"{name}.csv", index=False, lineterminator="\n")
+                (place / f"{name}.csv").write_text(csv_of(frame), encoding="utf-8", newline="")
             for name, figure in self.figures().items():
                 save_figure(figure, place, name)
             for name, write in self.files.items():

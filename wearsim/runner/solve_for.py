@@ -1,4 +1,4 @@
-"""The value of one input key at which a case lives as long as required."""
+"""The value of one input key at which a case lasts as long as required."""
 
 import math
 from collections.abc import Callable
@@ -109,12 +109,12 @@ def solve_for(
     whole: bool = False,
     life_of: Callable[[Result], float] = hours_to_first_end,
 ) -> Solved:
-    """Find the value of a key at which a case lives as long as required.
+    """Find the value of a key at which a case lasts as long as required.
 
     From the start the value is doubled or halved, to the side on which the life comes
     nearer first, until the life is met, the case refuses or four steps bring the life no
     nearer; Brent's method on the logarithms follows, for whole numbers bisection to the
-    value that still lives as long.
+    value that still lasts as long.
     """
     lives = _Lives(case_at, hours, whole, life_of)
     first = lives.at(start)
@@ -192,7 +192,7 @@ def _root(lives: _Lives, one: float, other: float) -> SolveTrial:
 
 
 def _whole_root(lives: _Lives, low: float, high: float) -> SolveTrial:
-    """The whole number next to the root that lives as long as required."""
+    """The whole number next to the root that lasts as long as required."""
     rising = lives.excess(high) > 0.0
     while (middle := _between(lives, low, high)) is not None:
         low, high = (low, middle) if (lives.excess(middle) > 0.0) == rising else (middle, high)

@@ -12,7 +12,7 @@ import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.answer_table import AnswerTable, Column, records_of
+from wearsim.report.answer_table import AnswerTable, Column, csv_of, records_of
 from wearsim.report.chain_first import chain_first, is_of_form
 from wearsim.report.study_files import save_figures, save_files
 from wearsim.runner.run_study import missed_tolerance
@@ -70,10 +70,7 @@ def write_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> None:
     """Write the table and the pictures of a sweep into its folder."""
     from wearsim.study.sweep.figure import sweep_figures
 
-    texts = {
-        "cases.csv": table.to_csv(index=False),
-        "summary.md": f"# {sweep.title}\n\n{sweep_text(sweep, table)}\n",
-    }
+    texts = {"cases.csv": csv_of(table), "summary.md": f"# {sweep.title}\n\n{sweep_text(sweep, table)}\n"}
     save_files(folder, texts)
     save_figures(folder, sweep.title, sweep_figures(sweep, table))
 
