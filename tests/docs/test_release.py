@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 import yaml
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name as canonical
 
 import wearsim
 
@@ -60,6 +62,32 @@ def test_workflow_runs_every_gate_on_linux_and_the_quick_tests_elsewhere():
     assert commands["gates"] == [".ci/run"]
     assert jobs["quick"]["strategy"]["matrix"]["os"] == ["windows-latest", "macos-latest"]
     assert commands["quick"][-1] == "python -m pytest"
+
+
+@pytest.mark.parametrize(("lock", "extras"), [("container", ["report"]), ("ci", ["dev", "docs", "browser"])])
+def test_lock_holds_what_is_needed_with_hashes(lock, extras):
+    """Whoever adds or raises a dependency renews the locks: by packaging/lock."""
+    text = (ROOT / f"packaging/{lock}.lock").read_text("utf-8").replace(" \\\n", " ")
+    rows = [line for line in text.splitlines() if not line.startswith("#")]
+    assert [row for row in rows if not re.search(r"( --hash=sha256:[0-9a-f]{64})+$", row)] == []
+    locked = [Requirement(row.partition(" --hash")[0]) for row in rows]
+    optional = PROJECT["optional-dependencies"]
+    needs = [Requirement(text) for text in PROJECT["dependencies"]]
+    while extras:
+        of_extra = [Requirement(text) for text in optional[extras.pop()]]
+        extras += [name for need in of_extra if need.name == "wearsim" for name in need.extras]
+        needs += [need for need in of_extra if need.name != "wearsim"]
+    for need in needs:
+        versions = [str(one.specifier)[2:] for one in locked if canonical(one.name) == canonical(need.name)]
+        assert versions and all(need.specifier.contains(version) for version in versions), need
+
+
+def test_container_and_ci_install_by_hash():
+    container = (ROOT / "packaging/Containerfile").read_text("utf-8")
+    assert "pip install --no-cache-dir --require-hashes -r /source/packaging/container.lock" in container
+    steps = [step.get("run") for step in load(".github/workflows/ci.yml")["jobs"]["locked"]["steps"]]
+    assert "python -m pip install --require-hashes -r packaging/ci.lock" in steps
+    assert any("pip-audit" in run for run in steps if run)
 
 
 def test_container_runs_a_case_that_is_shipped():
