@@ -46,7 +46,7 @@ _MOST_CIRCLES, _MOST_EDGES, _MOST_AT_A_POINT = 1000, 20_000, 200
 
 _UNREADABLE = (
     *(OSError, ValueError, LookupError, TypeError, AttributeError),
-    *(ArithmeticError, RecursionError, AssertionError, EOFError, struct.error),
+    *(ArithmeticError, RecursionError, AssertionError, EOFError, StopIteration, struct.error),
 )
 """What the reader of damaged files raises beside its own errors."""
 
@@ -94,8 +94,9 @@ def _document(path: Path, notes: list[str]) -> "Drawing":
         document, auditor = recover.readfile(path)
         document.modelspace()
     except (DXFError, *_UNREADABLE) as error:
+        why = str(error) or "it ends too early"
         raise GeometryError(
-            f"{path}: must be a DXF file, but cannot be read ({error}): export it anew"
+            f"{path}: must be a DXF file, but cannot be read ({why}): export it anew"
         ) from None
     notes.append(f"the file was damaged; repaired with {len(auditor.fixes)} changes")
     return document
