@@ -10,6 +10,7 @@ import argparse
 import contextlib
 import io
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -47,7 +48,11 @@ class End:
 
     @property
     def is_bug(self) -> bool:
-        return self.code not in ENDS or "Warning:" in self.said or self.seconds > LONGEST_SECONDS
+        return (
+            self.code not in ENDS
+            or re.search("[a-z]Warning:", self.said) is not None
+            or self.seconds > LONGEST_SECONDS
+        )
 
 
 def ended(words: list[str]) -> End:

@@ -24,7 +24,9 @@ STRAND = drives.changed(drives.STRAND, {"run": {"horizon_hours": 100, "life_tole
 def wrap(profile):
     tables = copy.deepcopy(STRAND)
     tables["sprocket"]["profile"] = profile
+    tables["sprocket"]["nodes"] = 51
     tables["mechanism"] = {"kind": "wrap", "phases": 2}
+    tables["run"] = {"life_tolerance": 0.1}
     return tables
 
 

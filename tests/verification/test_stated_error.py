@@ -32,7 +32,7 @@ def alone(stated_error, tmp_path_factory):
     return found
 
 
-@pytest.mark.wide
+@pytest.mark.slow
 def test_it_holds_where_it_did_not(rows, alone):
     references = {row.number: row.reference for row in rows if row.kind == "strand"}
     for number in SILENT:

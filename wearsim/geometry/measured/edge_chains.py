@@ -82,7 +82,7 @@ def joined(
         }
     if widest > 1e-6:
         notes.append(f"ends of edges up to {widest:.2g} mm apart were joined")
-    return chains, sorted(junctions)
+    return _drawn(chains), sorted(junctions)
 
 
 def bridged(chains: list[Chain], reach: float) -> list[Chain]:
@@ -107,7 +107,14 @@ def bridged(chains: list[Chain], reach: float) -> list[Chain]:
     found, left = [chain for chain in chains if chain.closed], set(range(len(open_ones)))
     # From ends that stay open first: what is left then runs around.
     starts = sorted(range(ends.shape[0]), key=lambda end: end in partners)
-    return found + [_walked(open_ones, left, partners, start) for start in starts if start // 2 in left]
+    return _drawn(
+        found + [_walked(open_ones, left, partners, start) for start in starts if start // 2 in left]
+    )
+
+
+def _drawn(chains: list[Chain]) -> list[Chain]:
+    """Chains without those that shrank to a point when their ends were joined."""
+    return [chain for chain in chains if chain.points.shape[0] > (2 if chain.closed else 1)]
 
 
 def _walked(chains: list[Chain], left: set[int], partners: dict[int, int], start: int) -> Chain:
