@@ -223,7 +223,8 @@ def faults(name: str, result: wearsim.WearResult) -> Iterator[str]:
 
     A column that does not apply is blank, and one of the flank where nothing touches.
     """
-    bare = result.flank_columns.get("pressure_MPa", np.array([])) == 0.0
+    pressure = result.flank_columns.get("pressure_MPa")
+    bare = False if pressure is None else pressure == 0.0
     for columns, blank in ((result.history_columns, False), (result.flank_columns, bare)):
         for column, values in columns.items():
             numbers = np.asarray(values)
