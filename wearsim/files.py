@@ -56,8 +56,8 @@ def given_text(path: Path, errors: str = "strict") -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
-def given_lines(path: Path) -> list[tuple[int, list[str]]]:
-    """Return the cells of every line of a CSV file that a user gives, with the numbers of the lines.
+def given_lines(path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Yield the cells of every line of a CSV file that a user gives, with the number of the line.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def given_lines(path: Path) -> list[tuple[int, list[str]]]:
     if rows > MOST_ROWS:
         raise OSError(errno.EFBIG, f"it has {rows} rows, {MOST_ROWS} are the most")
     reader = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""))
-    return [(reader.line_num, line) for line in reader]
+    yield from ((reader.line_num, line) for line in reader)
 
 
 def check_free(path: Path, force: bool) -> None:

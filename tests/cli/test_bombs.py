@@ -1,6 +1,9 @@
 """Inputs that are small on the disk and would take minutes or gigabytes: refused by their size, at once."""
 
 import math
+import os
+import subprocess
+import sys
 
 import pytest
 
@@ -33,7 +36,27 @@ def test_case(cli, drive, more, words):
 def test_table_of_millions_of_rows(tmp_path):
     (tmp_path / "long.csv").write_bytes(b"x_mm,y_mm\n" + b"1,2\n" * 3_000_000)
     with pytest.raises(OSError, match="it has 3000001 rows, 2000000 are the most"):
-        given_lines(tmp_path / "long.csv")
+        next(given_lines(tmp_path / "long.csv"))
+
+
+@pytest.mark.slow
+def test_log_of_a_million_rows_in_400_megabytes(drive, tmp_path):
+    rows = "".join(f"{second},{1000 + second % 7},60\n" for second in range(1_000_000))
+    (tmp_path / "log.csv").write_text("time_s,tension_N,speed_rpm\n" + rows)
+    case = drive(power_kW='3\nduty_file = "log.csv"')
+    case.write_text(case.read_text().replace("power_kW = 3\n", "").replace("speed_rpm = 100\n", ""))
+    process = subprocess.Popen([sys.executable, "-m", "wearsim", "check", str(case)])
+    _, status, used = os.wait4(process.pid, 0)
+    assert os.waitstatus_to_exitcode(status) == 0
+    assert used.ru_maxrss < 400_000
+
+
+def test_faults_of_a_table_end_after_a_thousand(cli, drive, tmp_path):
+    (tmp_path / "long.csv").write_bytes(b"x_mm,y_mm\n" + b"1,\n" * 100_000)
+    done = cli("check", drive(profile='"points"\npoints_file = "long.csv"'))
+    assert done.code == 2
+    assert "long.csv:2: y_mm must be a finite number (got '')" in done.err
+    assert len(done.err.splitlines()) < 50
 
 
 def entities(kind, rows):

@@ -3,7 +3,8 @@
 import csv
 import math
 import re
-from collections.abc import Sequence
+from array import array
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,8 +16,11 @@ from wearsim.geometry.profile_points import Vector, chord_lengths
 from wearsim.input.faults import Faults
 from wearsim.input.units import LEAST, MAX
 
-_MAX_ROWS = 200_000
+_MOST_ROWS = 200_000
+"""Of a table, if nothing else is said."""
 
+_MOST_NAMED = 1000
+"""Faults of a table that are named, before the rest of it is left unread."""
 
 _NAME = re.compile(r"[\w .,;%/()\[\]-]{0,60}")
 """What may be the name of a column."""
@@ -35,25 +39,27 @@ class PrescribedTable:
 
 
 def read_columns(
-    path: Path, required: tuple[str, ...], optional: tuple[str, ...], key: str, faults: Faults
+    path: Path,
+    required: tuple[str, ...],
+    optional: tuple[str, ...],
+    key: str,
+    faults: Faults,
+    most_rows: int = _MOST_ROWS,
 ) -> dict[str, Vector]:
     """Read a CSV file of numbers and report every bad cell."""
+    before = faults.count
     try:
-        lines = [cells for _, cells in given_lines(path)]
+        rows = (cells for _, cells in given_lines(path))
+        names = [name.strip() for name in next(rows, [])]
+        for text in header_faults(names, required, optional):
+            faults.add(key, f"{path.name}:1: {text}")
+        values = _cells(path, names, rows, key, faults, most_rows) if faults.count == before else array("d")
     except (OSError, ValueError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
         faults.add(key, f"the file must be readable CSV (got {str(path)!r}: {reason})")
-        return {}
-    names = [name.strip() for name in lines[0]] if lines else []
-    before = faults.count
-    for text in header_faults(names, required, optional):
-        faults.add(key, f"{path.name}:1: {text}")
     if faults.count > before:
         return {}
-    values = _cells(path, names, lines[1:], key, faults)
-    if faults.count > before:
-        return {}
-    table = np.array(values, dtype=float).reshape(-1, len(names))
+    table = np.array(values).reshape(-1, len(names))
     return {name: np.ascontiguousarray(table[:, i]) for i, name in enumerate(names)}
 
 
@@ -69,6 +75,8 @@ def header_faults(names: Sequence[str], required: Sequence[str], optional: Seque
     >>> header_faults(["x_mm", "y:0:root"], ["x_mm"], [])
     ['column 2 must be one of x_mm: its head is no name']
     """
+    if not names:
+        return ["the names of the columns must be here, but the file is empty"]
     if len(names) == 1 and ";" in names[0]:
         return [
             "columns are separated by semicolons: separate them by commas, and write decimals with a point"
@@ -88,34 +96,35 @@ def header_faults(names: Sequence[str], required: Sequence[str], optional: Seque
 
 
 def _cells(
-    path: Path, names: list[str], lines: list[list[str]], key: str, faults: Faults
-) -> list[list[float]]:
-    values: list[list[float]] = []
-    if len(lines) > _MAX_ROWS:
-        faults.add(key, f"{path.name}: at most {_MAX_ROWS} rows, has {len(lines)}")
-        return values
-    for number, line in enumerate(lines, start=2):
-        if not line:
-            continue
-        if len(line) != len(names):
-            faults.add(key, f"{path.name}:{number}: needs {len(names)} values, has {len(line)}")
-            continue
-        row = []
-        for name, cell in zip(names, line, strict=True):
-            try:
-                row.append(float(cell))
-            except ValueError:
-                row.append(math.nan)
-            if not math.isfinite(row[-1]):
-                faults.add(key, f"{path.name}:{number}: {name} must be a finite number (got {cell!r})")
-            elif abs(row[-1]) > MAX:
-                text = f"{name} must be at most {MAX:g} in size (got {cell!r})"
-                faults.add(key, f"{path.name}:{number}: {text}")
-            elif abs(row[-1]) < LEAST:
-                # What is left of a formula that should come to 0.
-                row[-1] = 0.0
-        values.append(row)
+    path: Path, names: list[str], rows: Iterable[list[str]], key: str, faults: Faults, most_rows: int
+) -> "array[float]":
+    """Return all numbers, row by row."""
+    values = array("d")
+    before = faults.count
+    for number, row in enumerate(rows, start=2):
+        if number > most_rows + 1:
+            faults.add(key, f"{path.name}: must have at most {most_rows} rows")
+        if faults.count > before + _MOST_NAMED or number > most_rows + 1:
+            break
+        if row and len(row) != len(names):
+            faults.add(key, f"{path.name}:{number}: needs {len(names)} values, has {len(row)}")
+        elif row:
+            values.extend(_numbers(f"{path.name}:{number}", names, row, key, faults))
     return values
+
+
+def _numbers(place: str, names: list[str], row: list[str], key: str, faults: Faults) -> Iterator[float]:
+    for name, cell in zip(names, row, strict=True):
+        try:
+            value = float(cell)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            faults.add(key, f"{place}: {name} must be a finite number (got {cell!r})")
+        elif abs(value) > MAX:
+            faults.add(key, f"{place}: {name} must be at most {MAX:g} in size (got {cell!r})")
+        # Below the least number it is what is left of a formula that should come to 0.
+        yield value if abs(value) >= LEAST else 0.0
 
 
 def read_flank_points(path: Path, key: str, faults: Faults) -> tuple[Vector, Vector] | None:

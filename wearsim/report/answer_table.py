@@ -147,7 +147,9 @@ def csv_of(frame: "pd.DataFrame") -> str:
     """Return a table of pandas as the content of a file, with no text that a spreadsheet would calculate."""
     from pandas.api.types import is_numeric_dtype
 
-    texts = {name: column.map(_no_formula) for name, column in frame.items() if not is_numeric_dtype(column)}
+    texts = {
+        str(name): column.map(_no_formula) for name, column in frame.items() if not is_numeric_dtype(column)
+    }
     return frame.assign(**texts).to_csv(index=False, lineterminator="\n")
 
 
