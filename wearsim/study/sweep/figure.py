@@ -104,6 +104,7 @@ def _scale_axes(panel: Axes, table: pd.DataFrame, key: str) -> None:
         number_ticks(panel.yaxis)
     else:
         panel.set_ylim(0.0, 1.1 * panel.dataLim.y1)
+        panel.yaxis.set_major_formatter(FuncFormatter(lambda value, _: number_words(value)))
     if np.diff(places).min(initial=math.inf) > LEAST_APART * np.ptp(places):
         panel.set_xticks(own, [number_words(value) for value in own.tolist()])
     elif by_factor:
