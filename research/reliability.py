@@ -1,21 +1,22 @@
 """Random drives of every mechanism: each has a life or a named error, and twins of it agree.
 
-``python research/reliability.py`` (an hour on two cores) writes reports/reference/reliability.md;
-``python research/reliability.py 20`` takes a twentieth of the drives and prints only.
+``python research/reliability.py`` (two hours on two cores) writes reports/reference/reliability.md;
+``--minutes 30`` ends after half an hour with what has been drawn by then, in random order.
 
 Drives are drawn as for research/stated_error.py, with another seed, and whole drives besides. A twin is
 the same drive said otherwise, or one whose life is known from the first: where both have a life, their
 lives must agree within what they state.
 """
 
+import argparse
 import math
-import sys
+import multiprocessing
+import random
 import tempfile
 import time
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
 from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -256,29 +257,32 @@ def compared(twin: Twin, first: dict[str, wearsim.WearResult]) -> list[str]:
     return found
 
 
-def tried(kind: str, number: int) -> Outcome:
+def tried(job: tuple[str, int]) -> Outcome:
     """Run one drive, its twins and, where there is one, its reference."""
-    outcome = Outcome(kind, number)
+    outcome = Outcome(*job)
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        begun = time.process_time()
         try:
-            tables = drawn(kind, number, Path(folder))
-            first = lives(tables)
+            _try(outcome, Path(folder))
         except wearsim.WearsimError as error:
             outcome.refused = reason("its run", error)
-            return outcome
         except Exception as error:
-            outcome.broken = [f"{type(error).__name__}: {error}"]
-            return outcome
-        finally:
-            outcome.seconds = time.process_time() - begun
-        outcome.broken = [fault for name, result in first.items() for fault in faults(name, result)]
-        for twin in twins(kind, tables):
-            outcome.twins[twin.name] += 1
-            outcome.broken += compared(twin, first)
-        outcome.ratio = true_over_stated(kind, number, Path(folder), first)
+            outcome.broken.append(f"{type(error).__name__}: {error}")
     return outcome
+
+
+def _try(outcome: Outcome, folder: Path) -> None:
+    begun = time.process_time()
+    try:
+        tables = drawn(outcome.kind, outcome.number, folder)
+        first = lives(tables)
+    finally:
+        outcome.seconds = time.process_time() - begun
+    outcome.broken = [fault for name, result in first.items() for fault in faults(name, result)]
+    for twin in twins(outcome.kind, tables):
+        outcome.twins[twin.name] += 1
+        outcome.broken += compared(twin, first)
+    outcome.ratio = true_over_stated(outcome.kind, outcome.number, folder, first)
 
 
 def true_over_stated(kind: str, number: int, folder: Path, first: dict[str, wearsim.WearResult]) -> float:
@@ -335,10 +339,11 @@ def report(found: dict[str, list[Outcome]]) -> str:
             "the stated errors where they are not. *Broken* are drives with a fault: no number, a negative",
             "depth, a twin that disagrees, any other error. *Late* are those that took more processor time",
             f"than {budgets} seconds. *True error* is that against a far finer run.",
+            f"{sum(map(len, found.values()))} of {sum(DRIVES.values())} drives, in random order.",
             "",
             f"| {' | '.join(COLUMNS)} |",
             f"|{'---|' * len(COLUMNS)}",
-            *(row(kind, ones) for kind, ones in found.items()),
+            *(row(kind, ones) for kind, ones in found.items() if ones),
             "",
             "Wraps against finer runs: reports/reference/stated_error.csv.",
             "",
@@ -359,16 +364,19 @@ def report(found: dict[str, list[Outcome]]) -> str:
 
 
 def main() -> None:
-    part = int(sys.argv[1]) if sys.argv[1:] else 1
-    found: dict[str, list[Outcome]] = {}
-    with ProcessPoolExecutor(2) as pool:
-        for kind, drives in DRIVES.items():
-            numbers = range(drives // part)
-            found[kind] = list(pool.map(tried, [kind] * len(numbers), numbers))
-            print(f"{kind}: {len(numbers)} drawn", file=sys.stderr)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--minutes", type=float, default=math.inf)
+    until = time.monotonic() + 60.0 * parser.parse_args().minutes
+    jobs = [(kind, number) for kind, drives in DRIVES.items() for number in range(drives)]
+    random.Random(SEED).shuffle(jobs)  # noqa: S311
+    found: dict[str, list[Outcome]] = {kind: [] for kind in DRIVES}
+    with multiprocessing.Pool(2) as pool:
+        for outcome in pool.imap_unordered(tried, jobs):
+            found[outcome.kind].append(outcome)
+            if time.monotonic() > until:
+                break
     text = report(found)
-    if part == 1:
-        REPORT.write_text(text, "utf-8")
+    REPORT.write_text(text, "utf-8")
     print(text)
 
 
