@@ -149,8 +149,11 @@ class Trial:
             tally.ends["partly"] += 1
         else:
             tally.broken.append(f"{self.name}: torn: {sorted(found)}")
-        if not self.is_whole(self.run_to_its_end(clear=False)):
-            tally.broken.append(f"{self.name}: the next run writes something else")
+        try:
+            if not self.is_whole(self.run_to_its_end(clear=False)):
+                tally.broken.append(f"{self.name}: the next run writes something else")
+        except SystemExit as error:
+            tally.broken.append(f"{self.name}: the next run: {error}")
         if beside := sorted(path.name for path in self.folder.iterdir() if path != self.out):
             tally.broken.append(f"{self.name}: left behind: {beside}")
 

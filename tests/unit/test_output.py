@@ -9,7 +9,7 @@ import pytest
 
 from wearsim import __version__
 from wearsim.errors import OutputError
-from wearsim.files import check_free, new_folder, write_file
+from wearsim.files import check_free, new_file, new_folder, write_file
 
 
 def tree(folder):
@@ -242,3 +242,22 @@ def test_folder_without_a_marker_is_not_replaced(tmp_path, name):
     (run / name).write_text("{}")
     with pytest.raises(OutputError, match=f"but holds {name}"):
         fill(run)
+
+
+def test_what_a_killed_writer_left_beside_a_file_goes(tmp_path):
+    left, of_another = tmp_path / ".flank.csv.ab12cd_9", tmp_path / ".flank.csv.bak"
+    for path in (left, of_another):
+        path.write_text("half of it")
+    write_file(tmp_path / "flank.csv", "all of it", force=True)
+    assert {path.name for path in tmp_path.iterdir()} == {"flank.csv", of_another.name}
+
+
+def test_what_another_writer_still_writes_stays(tmp_path):
+    path = tmp_path / "flank.csv"
+    with new_file(path) as file:
+        (beside,) = tmp_path.iterdir()
+        file.write(b"first")
+        write_file(path, "second", force=True)
+        assert beside.exists()
+    assert path.read_text() == "first"
+    assert list(tmp_path.iterdir()) == [path]

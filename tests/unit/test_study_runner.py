@@ -351,3 +351,15 @@ def test_scheduler_file_that_is_none(content, tmp_path):
     place.write_text(content)
     with pytest.raises(StudyError, match="must be the file"), Cluster(None, place, {}).open():
         pass
+
+
+@pytest.mark.parametrize("name", [".wearsim", "study.json"])
+def test_a_folder_whose_maker_was_killed_is_taken(cases, tmp_path, name):
+    """Nothing is there but what was written beside the marker or the manifest."""
+    from wearsim.runner.store import open_store
+
+    folder = tmp_path / "study"
+    folder.mkdir()
+    (folder / f".{name}.0a1b2c3d").write_bytes(b"half")
+    opened = open_store(folder, cases, {"study": "test"}, False)
+    assert {path.name for path in opened.folder.iterdir()} == {".wearsim", "study.json"}

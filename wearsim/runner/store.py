@@ -12,7 +12,7 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.errors import OutputError
 from wearsim.extras import library
-from wearsim.files import MARKER, check_free, mark, write_file, written
+from wearsim.files import MARKER, check_free, clear_left, mark, new_file, write_file, written
 from wearsim.runner.design import Design, content_hash
 from wearsim.runner.shard import Rows, Shard
 
@@ -71,17 +71,13 @@ class Store:
         }
         table = arrow.table(columns).replace_schema_metadata({_HASH: content_hash(rows)})
         path = self.path(shard)
-        beside = path.with_name(f".{path.name}.{os.getpid()}")
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            with beside.open("wb") as file:
+            with new_file(path) as file:
                 parquet.write_table(table, file, compression="zstd")
                 file.flush()
                 os.fsync(file.fileno())
-            os.replace(beside, path)
         except OSError as error:
-            with contextlib.suppress(OSError):
-                beside.unlink()
             reason = error.strerror or error
             raise OutputError(
                 f"{path.parent}: must be writable: {reason}; what is finished is kept, run the same "
@@ -123,6 +119,8 @@ def _own_manifest(folder: Path, text: str, force: bool) -> str | None:
     """Manifest of the study that is there, which must be the same one unless it may be replaced."""
     check_free(folder, force=True)
     place = folder / MANIFEST
+    for name in (MARKER, MANIFEST):
+        clear_left(folder / name)
     try:
         own = written(folder)
         ours = MANIFEST in own and place.exists()
