@@ -10,6 +10,7 @@ import argparse
 import hashlib
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -62,11 +63,11 @@ class Tally:
 
 
 def files_in(folder: Path) -> Files:
-    """Return the digests of all files below a folder."""
+    """Return the digests of all files below a folder, but for what a later run clears away."""
     return {
         str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
         for path in sorted(folder.rglob("*"))
-        if path.is_file()
+        if path.is_file() and not re.fullmatch(r"\..+\.[a-z0-9_]{8}", path.name)
     }
 
 

@@ -339,6 +339,7 @@ def report(found: dict[str, list[Outcome]]) -> str:
             "the stated errors where they are not. *Broken* are drives with a fault: no number, a negative",
             "depth, a twin that disagrees, any other error. *Late* are those that took more processor time",
             f"than {budgets} seconds. *True error* is that against a far finer run.",
+            "",
             f"{sum(map(len, found.values()))} of {sum(DRIVES.values())} drives, in random order.",
             "",
             f"| {' | '.join(COLUMNS)} |",

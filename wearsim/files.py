@@ -12,6 +12,7 @@ import stat
 import sys
 import tempfile
 import threading
+import time
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import IO
@@ -267,7 +268,7 @@ def write_file(path: Path, content: str | bytes, force: bool) -> None:
 @contextlib.contextmanager
 def new_file(path: Path) -> Iterator[IO[bytes]]:
     """Give a file beside a place that takes its name when all of it is written."""
-    clear_left(path)
+    _clear_left(path)
     handle, beside = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
     try:
         with os.fdopen(handle, "wb") as file:
@@ -281,11 +282,20 @@ def new_file(path: Path) -> Iterator[IO[bytes]]:
         raise
 
 
-def clear_left(path: Path) -> None:
-    """Remove what killed writers left beside a file; who still writes holds a lock on it."""
-    for left in path.parent.glob(f".{glob.escape(path.name)}.{'[a-z0-9_]' * 8}"):
+_OLD = 10.0
+"""Age of a file beside another [s] at which its writer holds its lock, or has been killed."""
+
+
+def left_beside(path: Path) -> list[Path]:
+    """Return what writers of a file have beside it, or left there when they were killed."""
+    return list(path.parent.glob(f".{glob.escape(path.name)}.{'[a-z0-9_]' * 8}"))
+
+
+def _clear_left(path: Path) -> None:
+    """Remove what killed writers left beside a file."""
+    for left in left_beside(path):
         with contextlib.suppress(OSError), left.open("rb") as file:
-            if _lock(file):
+            if time.time() - left.stat().st_mtime > _OLD and _lock(file):
                 left.unlink()
 
 

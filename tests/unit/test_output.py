@@ -245,17 +245,20 @@ def test_folder_without_a_marker_is_not_replaced(tmp_path, name):
 
 
 def test_what_a_killed_writer_left_beside_a_file_goes(tmp_path):
-    left, of_another = tmp_path / ".flank.csv.ab12cd_9", tmp_path / ".flank.csv.bak"
-    for path in (left, of_another):
+    left, young, another = (tmp_path / f".flank.csv.{end}" for end in ("ab12cd_9", "ab12cd_8", "bak"))
+    for path in (left, young, another):
         path.write_text("half of it")
+    os.utime(left, (1e9, 1e9))
+    os.utime(another, (1e9, 1e9))
     write_file(tmp_path / "flank.csv", "all of it", force=True)
-    assert {path.name for path in tmp_path.iterdir()} == {"flank.csv", of_another.name}
+    assert {path.name for path in tmp_path.iterdir()} == {"flank.csv", young.name, another.name}
 
 
 def test_what_another_writer_still_writes_stays(tmp_path):
     path = tmp_path / "flank.csv"
     with new_file(path) as file:
         (beside,) = tmp_path.iterdir()
+        os.utime(beside, (1e9, 1e9))
         file.write(b"first")
         write_file(path, "second", force=True)
         assert beside.exists()

@@ -12,7 +12,7 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.errors import OutputError
 from wearsim.extras import library
-from wearsim.files import MARKER, check_free, clear_left, mark, new_file, write_file, written
+from wearsim.files import MARKER, check_free, left_beside, mark, new_file, write_file, written
 from wearsim.runner.design import Design, content_hash
 from wearsim.runner.shard import Rows, Shard
 
@@ -119,12 +119,11 @@ def _own_manifest(folder: Path, text: str, force: bool) -> str | None:
     """Manifest of the study that is there, which must be the same one unless it may be replaced."""
     check_free(folder, force=True)
     place = folder / MANIFEST
-    for name in (MARKER, MANIFEST):
-        clear_left(folder / name)
     try:
         own = written(folder)
         ours = MANIFEST in own and place.exists()
         old = place.read_bytes().decode("utf-8", "replace") if ours else None
+        own |= {path.name for name in (MARKER, MANIFEST) for path in left_beside(folder / name)}
         foreign = folder.exists() and (not folder.is_dir() or {path.name for path in folder.iterdir()} - own)
     except OSError as error:
         raise OutputError(f"{folder}: must be readable: {error.strerror or error}") from None
