@@ -8,7 +8,7 @@ from pathlib import Path
 LOCK = Path(__file__).parents[1] / "packaging" / "container.lock"
 
 PERMITTED = re.compile(
-    r"MIT|BSD|0BSD|Apache|PSF|Python Software Foundation|ISC|Zlib|CC0|HPND|MPL-2\.0|Unlicense"
+    r"MIT|BSD|0BSD|Apache|PSF|Python Software Foundation|ISC|Zlib|CC0|HPND|MPL-2\.0|MPL 2\.0|Unlicense"
 )
 """Licences that permit use beside the MIT licence, by name; the GPL and the LGPL are none of them."""
 
