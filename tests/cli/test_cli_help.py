@@ -101,7 +101,7 @@ def bare(tmp_path):
     return run
 
 
-@pytest.mark.wide
+@pytest.mark.slow
 @pytest.mark.parametrize("example", [one for one in EXAMPLES if one.split()[1] not in (*NEEDS, "warm")])
 def test_example_runs_as_printed_on_the_bare_installation(bare, example, tmp_path):
     """All but the kernels, which take a minute to compile; the photograph of the example is rendered."""
