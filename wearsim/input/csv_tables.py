@@ -19,7 +19,7 @@ from wearsim.input.units import LEAST, MAX
 _MOST_ROWS = 200_000
 """Of a table, if nothing else is said."""
 
-_MOST_NAMED = 1000
+MOST_NAMED = 1000
 """Faults of a table that are named, before the rest of it is left unread."""
 
 _NAME = re.compile(r"[\w .,;%/()\[\]-]{0,60}")
@@ -102,9 +102,10 @@ def _cells(
     values = array("d")
     before = faults.count
     for number, row in enumerate(rows, start=2):
+        if faults.count > before + MOST_NAMED:
+            break
         if number > most_rows + 1:
             faults.add(key, f"{path.name}: must have at most {most_rows} rows")
-        if faults.count > before + _MOST_NAMED or number > most_rows + 1:
             break
         if row and len(row) != len(names):
             faults.add(key, f"{path.name}:{number}: needs {len(names)} values, has {len(row)}")

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from wearsim.files import MOST_ROWS
 from wearsim.geometry.profile_points import Vector
-from wearsim.input.csv_tables import read_columns
+from wearsim.input.csv_tables import MOST_NAMED, read_columns
 from wearsim.input.faults import Faults
 
 
@@ -131,9 +131,6 @@ _ALIKE, _MOST, _FEWEST = 0.1, 0.6, 5
 _MISSING = 1.5
 """Step of an evenly sampled log over the median above which rows are missing."""
 
-_MOST_NAMED = 1000
-"""Steps backwards that are named."""
-
 _GAP = 10.0
 """The same of any other log."""
 
@@ -175,7 +172,7 @@ def read_log(path: Path, key: str, faults: Faults) -> LogFile | None:
         faults.add(key, f"{path.name}: needs at least 2 rows, has {time.size}")
         return None
     step = np.diff(time)
-    for index in np.flatnonzero(step <= 0.0)[:_MOST_NAMED]:
+    for index in np.flatnonzero(step <= 0.0)[:MOST_NAMED]:
         faults.add(key, f"{path.name}:{index + 3}: {names[0]} must increase from row to row")
     if faults.count > before:
         return None

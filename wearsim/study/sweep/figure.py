@@ -96,6 +96,7 @@ def _scale_axes(panel: Axes, table: pd.DataFrame, key: str) -> None:
     own = np.unique(table[key].to_numpy(float))
     by_factor = is_by_factor(own)
     places = np.log(own) if by_factor else own
+    in_words = FuncFormatter(lambda value, _: number_words(value))
     if by_factor:
         panel.set_xscale("log")
         panel.xaxis.set_minor_locator(NullLocator())
@@ -104,11 +105,11 @@ def _scale_axes(panel: Axes, table: pd.DataFrame, key: str) -> None:
         number_ticks(panel.yaxis)
     else:
         panel.set_ylim(0.0, 1.1 * panel.dataLim.y1)
-        panel.yaxis.set_major_formatter(FuncFormatter(lambda value, _: number_words(value)))
+        panel.yaxis.set_major_formatter(in_words)
     if np.diff(places).min(initial=math.inf) > LEAST_APART * np.ptp(places):
         panel.set_xticks(own, [number_words(value) for value in own.tolist()])
     elif by_factor:
-        panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: number_words(value)))
+        panel.xaxis.set_major_formatter(in_words)
     else:
         panel.xaxis.set_major_locator(MaxNLocator(integer=is_whole(table[key])))
 
