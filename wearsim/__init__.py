@@ -32,6 +32,7 @@ _PUBLIC = {
     "WearResult": "wearsim.result",
     "WearsimError": "wearsim.errors",
     "YearPlanResult": "wearsim.study.maintain.year_answer",
+    "allow_outside": "wearsim.input.named_files",
     "calibrate": "wearsim.study.calibrate.answer",
     "check": "wearsim.report.check",
     "export": "wearsim.cad.export",
@@ -65,6 +66,7 @@ if TYPE_CHECKING:
     from wearsim.drive.load_case import load_case
     from wearsim.drive.simulate import simulate, simulate_many
     from wearsim.errors import CaseError, ContactError, ConvergenceError, GeometryError, WearsimError
+    from wearsim.input.named_files import allow_outside
     from wearsim.lubrication.own_lubricant import lubricant
     from wearsim.report.check import CheckResult, check
     from wearsim.report.loads_result import LoadsResult, loads
@@ -111,6 +113,7 @@ __all__ = [
     "WearsimError",
     "YearPlanResult",
     "__version__",
+    "allow_outside",
     "calibrate",
     "check",
     "export",

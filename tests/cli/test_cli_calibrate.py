@@ -260,6 +260,25 @@ def test_scans_that_cannot_be_read_are_told(cli, case, table, tmp_path):
         assert message in done.err, done.err
 
 
+def test_scans_outside_the_folder_of_the_readings(cli, case, table, tmp_path):
+    """Refused where a file names them, not where a program does."""
+    scan = tmp_path / "scans" / "scan.csv"
+    scan.parent.mkdir()
+    scan.write_text("x_mm,y_mm\n1,2\n")
+    (tmp_path / "log").mkdir()
+    readings = table("1,profile,,0.01,,../scans/scan.csv", head=f"{HEAD},points_file")
+    readings = readings.rename(tmp_path / "log" / "readings.csv")
+    few = "needs at least 11 points, has 1"
+    done = cli("calibrate", case[0], readings)
+    assert done.code == 2
+    assert "readings.csv:2: points_file: must name a file in the folder of the input" in done.err
+    assert few not in done.err
+    assert few in cli("calibrate", case[0], readings, "--allow-outside").err
+    row = {"time_hours": 1, "quantity": "profile", "error": 0.01, "points_file": scan}
+    with pytest.raises(wearsim.CaseError, match=few):
+        wearsim.calibrate(case[0], [{name: str(value) for name, value in row.items()}])
+
+
 @pytest.mark.parametrize(
     ("key", "message"),
     [

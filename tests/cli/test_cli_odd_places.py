@@ -1,6 +1,7 @@
 """Files that are none, places that lead nowhere, and an environment that says nonsense."""
 
 import os
+import shutil
 from pathlib import Path
 
 import pytest
@@ -127,3 +128,40 @@ def test_no_temporary_folder(cli, drive, tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.TemporaryDirectory", none)
     done = cli("report", drive(nodes=21), "--out", tmp_path / "sheet.html")
     refused(done, "temporary folder: must be writable", "set TMPDIR to a folder")
+
+
+def outside(tmp_path):
+    """A case whose points lie beside its folder, not in it."""
+    source = Path(__file__).parents[2] / "cases" / "beet-harvester-18t-soil.toml"
+    folder = tmp_path / "drives"
+    folder.mkdir()
+    shutil.copy(source.with_suffix(".csv"), tmp_path / "flank.csv")
+    text = source.read_text("utf-8").replace(f"{source.stem}.csv", "../flank.csv")
+    (folder / "drive.toml").write_text(text, "utf-8")
+    return folder / "drive.toml"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["life", "CASE"],
+        ["check", "CASE"],
+        ["profile", "CASE"],
+        ["sweep", "STUDY", "--jobs", "2"],
+        ["compare", "CASE", "CASE", "--set", "load.tension_N=1900"],
+    ],
+    ids=lambda arguments: arguments[0],
+)
+def test_files_outside_the_folder_of_a_case(cli, tmp_path, arguments):
+    """Refused, unless that is allowed for this one command."""
+    case = outside(tmp_path)
+    study = tmp_path / "study.toml"
+    study.write_text(
+        'format_version = 1\ncase = "drives/drive.toml"\n[grid]\n"load.tension_N" = [1900, 2000]\n'
+    )
+    words = [{"CASE": str(case), "STUDY": str(study)}.get(word, word) for word in arguments]
+    allowed = cli(*words, "--allow-outside")
+    assert allowed.code == 0, allowed.err
+    refused = cli(*words)
+    assert refused.code == 2
+    assert f"{case}:24: sprocket.points_file: must name a file in the folder" in refused.err

@@ -18,7 +18,8 @@ CalibrationResult Case CaseError ChainReadingsResult CheckResult ContactError Co
 DriveLife ExportResult GeometryError JudgementResult Life LoadsResult LowerBound LubricationResult
 MaintenanceResult OptimiseResult RemainingResult ScanResult SelectionResult SweepResult UncertaintyResult
 WearResult WearsimError YearPlanResult
-__version__ calibrate check export judge load_case loads lubricant lubricate maintain optimise progress_bar
+__version__ allow_outside calibrate check export judge load_case loads lubricant lubricate maintain optimise
+progress_bar
 remaining scan select simulate simulate_many sweep uncertainty wear_law
 """
 """What programs of users may name; one that goes stands in `_FORMER` first: CONTRIBUTING.md says how long."""

@@ -17,6 +17,7 @@ from click.core import ParameterSource
 
 from wearsim.command.complete import complete_setting
 from wearsim.errors import CaseError, Fault, GeometryError, OutputError, WearsimError
+from wearsim.input.named_files import allow_outside
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -51,7 +52,19 @@ def common_options(function: Function) -> Function:
 
 
 def overrides(function: Function) -> Function:
-    """Add ``--set``, which every command that takes a CASE takes."""
+    """Add ``--set`` and ``--allow-outside``, which every command that takes a CASE takes."""
+
+    def _allow(context: click.Context, parameter: click.Parameter, allowed: bool) -> None:
+        if allowed:
+            context.with_resource(allow_outside())
+
+    function = click.option(
+        "--allow-outside",
+        is_flag=True,
+        expose_value=False,
+        callback=_allow,
+        help="Read files that the case names also where they lie outside its folder.",
+    )(function)
     return click.option(
         "--set",
         "settings",

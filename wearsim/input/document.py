@@ -19,7 +19,8 @@ from wearsim.files import given_bytes
 from wearsim.input.column_files import with_column_files
 from wearsim.input.faults import Faults
 from wearsim.input.giving_way import remove_alternatives
-from wearsim.input.table import CalculationTables, Table
+from wearsim.input.named_files import FILE_KEYS, OUTSIDE, is_outside
+from wearsim.input.table import CalculationTables, Table, without_numbers
 from wearsim.input.units import plain_tables
 
 
@@ -73,7 +74,18 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
     if keys:
         remove_alternatives(data, keys)
     given = replace(given, tables=data)
+    if isinstance(source, str | Path | CaseText):
+        check_inside(given, faults, keys)
     return Document(given.name, given.folder, retitled(data, given.written), faults, given)
+
+
+def check_inside(given: GivenInput, faults: Faults, changed: Sequence[str] = ()) -> None:
+    """Raise where a file names files that lie out of its folder, before any of them is read."""
+    for key, name in leaves(given.tables):
+        names_file = tuple(without_numbers(key).split(".")) in FILE_KEYS
+        if names_file and key not in changed and isinstance(name, str) and is_outside(given.folder, name):
+            faults.add(key, f"{OUTSIDE} (got {name!r:.60})")
+    faults.check()
 
 
 def _given(source: str | Path | CaseText | Mapping[str, Any]) -> GivenInput:

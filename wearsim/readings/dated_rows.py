@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from wearsim.errors import CaseError, Fault
 from wearsim.files import given_text, temporary_folder
 from wearsim.input.csv_tables import header_faults
+from wearsim.input.named_files import allow_outside
 from wearsim.quantities import grouped
 from wearsim.readings.day_format import iso_days
 from wearsim.readings.kept_tables import (
@@ -223,7 +224,8 @@ def readings_file(
         file = folder / f"{_NAME}.csv"
         _with_whole_paths(table).to_csv(file, index=False)
         try:
-            yield file
+            with allow_outside():
+                yield file
         except CaseError as error:
             faults = [replace(one, file=one.file.replace(str(file), _NAME)) for one in error.faults]
             raise CaseError(faults) from None

@@ -15,6 +15,7 @@ from wearsim.extras import library
 from wearsim.files import given_text, new_folder
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.mechanism_registry import mechanism_of
+from wearsim.input.named_files import FILE_KEYS, file_paths
 from wearsim.quantities import quantities
 from wearsim.result.lives import Life, LimitState, LowerBound
 from wearsim.result.second_opinions import read_opinions
@@ -23,13 +24,6 @@ from wearsim.result.stored_values import check_flank, check_history, check_input
 SCHEMA_VERSION = 1
 
 _INPUTS = "inputs"
-FILE_KEYS = (
-    ("sprocket", "points_file"),
-    ("sprocket", "dxf_file"),
-    ("mechanism", "table_file"),
-    ("load", "duty_file"),
-)
-"""Tables and keys of the inputs that name a file."""
 
 
 def write_result(
@@ -234,29 +228,6 @@ def of_one_sprocket(inputs: Mapping[str, Any]) -> dict[str, Any]:
     if isinstance(own.get("duty"), list):
         own["duty"] = [{k: v for k, v in block.items() if k != "power_share"} for block in own["duty"]]
     return own
-
-
-def file_paths(tables: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Return where the inputs name files: table and key, between them the number of one of several tables.
-
-    Examples
-    --------
-    >>> file_paths({"sprocket": [{"teeth": 17}, {"dxf_file": "gap.dxf"}]})
-    [('sprocket', '2', 'dxf_file')]
-    """
-    found: list[tuple[str, ...]] = []
-    for table, key in FILE_KEYS:
-        given = tables.get(table)
-        if isinstance(given, list):
-            places = [(table, str(number)) for number in range(1, len(given) + 1)]
-            found += [(*place, key) for place, one in zip(places, given, strict=True) if _has(one, key)]
-        elif _has(given, key):
-            found.append((table, key))
-    return found
-
-
-def _has(table: object, key: str) -> bool:
-    return isinstance(table, Mapping) and key in table
 
 
 def _write_json(path: Path, value: Mapping[str, Any]) -> None:

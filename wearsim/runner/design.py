@@ -20,10 +20,10 @@ from wearsim.input.document import Document
 from wearsim.input.giving_way import remove_alternatives
 from wearsim.input.keys import is_dict, schema_fields, schema_of
 from wearsim.input.mechanism_registry import MECHANISMS, WHOLE_DRIVE, MechanismEntry, mechanism_of
+from wearsim.input.named_files import FILE_KEYS, file_paths
 from wearsim.input.table import is_number, without_numbers
 from wearsim.jit.compiled import source_hash
 from wearsim.result.ends import CHAIN, SPROCKET
-from wearsim.result.folder import FILE_KEYS, file_paths
 
 _OF_A_MECHANISM = ("mechanism.kind", "sprocket.profile")
 """Keys that say which mechanism a case is about."""

@@ -16,8 +16,8 @@ from wearsim.drive.load_case import load_case
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import CaseSource, Document, read_document
+from wearsim.input.named_files import file_paths
 from wearsim.lubrication.keys import LASTS
-from wearsim.result.folder import file_paths
 from wearsim.runner.design import Design, design, replaced, value_at, value_in
 
 WITH_FATIGUE = "a life ends by wear or by contact fatigue, whichever is first ([fatigue])"

@@ -14,10 +14,12 @@ from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.load_case import load_drive
 from wearsim.errors import OutputError, WearsimError
 from wearsim.files import file_names, given_text, new_folder
-from wearsim.input.document import GivenInput, leaves, text_of
+from wearsim.input.document import GivenInput, check_inside, leaves, text_of
+from wearsim.input.faults import Faults
+from wearsim.input.named_files import FILE_KEYS
 from wearsim.report.drive.drive_json import drive_json
 from wearsim.result import WearResult
-from wearsim.result.folder import FILE_KEYS, SCHEMA_VERSION, write_parquet
+from wearsim.result.folder import SCHEMA_VERSION, write_parquet
 
 _INPUTS, _PARTS = "inputs", "parts"
 _STORED, _LOCK = "drive.json", "drive.lock.toml"
@@ -71,7 +73,9 @@ def _stored(folder: Path) -> DriveLife:
         )
     text = text_of(folder / _LOCK)
     tables = tomllib.loads(text)
-    drive = load_drive(GivenInput(str(folder / _LOCK), stored["case"], folder, text, tables, tables))
+    given = GivenInput(str(folder / _LOCK), stored["case"], folder, text, tables, tables)
+    check_inside(given, Faults(given.file, text, ()))
+    drive = load_drive(given)
     errors = {one["name"]: one["error"] for one in stored["sprockets"] if "error" in one}
     parts = _parts(drive, folder)
     results = {name: WearResult.load(part) for name, part in parts.items() if name not in errors}

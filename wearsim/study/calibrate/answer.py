@@ -172,5 +172,6 @@ def calibrate(
     given_options = {"register": register, "cutoff": cutoff, "confidence": confidence, "teeth": teeth}
     check_ranges("calibrate", given_options, _ALLOWED)
     options = CalibrationOptions(tuple(fit), register, cutoff, confidence, sprocket, teeth)
+    given = given_input(case)
     with readings_file(readings) as file:
-        return CalibrationResult(fitted(given_input(case), file, (), options))
+        return CalibrationResult(fitted(given, file, (), options))

@@ -11,9 +11,9 @@ from wearsim.case.model import Case
 from wearsim.chain.drive_layout import ToothMeetings
 from wearsim.drive.load_case import load_single
 from wearsim.geometry.forms import TOOTH_FORMS
+from wearsim.input.named_files import FILE_KEYS
 from wearsim.mechanisms.wrap.drive import WrapDrive
 from wearsim.result import Life, LowerBound
-from wearsim.result.folder import FILE_KEYS
 
 
 @dataclass(frozen=True)

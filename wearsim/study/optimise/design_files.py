@@ -8,7 +8,7 @@ from typing import Any
 from wearsim.errors import OutputError
 from wearsim.files import write_file
 from wearsim.input.document import retitled
-from wearsim.result.folder import file_paths
+from wearsim.input.named_files import file_paths
 from wearsim.runner.design import Design, replaced, value_at
 from wearsim.runner.store import own_designs
 

@@ -242,8 +242,9 @@ def remaining(
         if any(value is not None for value in (*alone, sprocket)):
             raise TypeError("remaining: readings hold hours and values, must be given without others")
         check_ranges("remaining", {"error": error}, {"error": _ABOVE_0})
+        found = loaded(case)
         with readings_file(readings) as file:
-            state = chain_state(loaded(case), file, _USUAL if error is None else error)
+            state = chain_state(found, file, _USUAL if error is None else error)
         return ChainReadingsResult(state)
     if hours is None:
         raise TypeError("remaining: must be given hours and one reading, or readings")

@@ -1,0 +1,80 @@
+"""Files that an input names, and the folder that they lie in."""
+
+import os.path
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+FILE_KEYS = (
+    ("sprocket", "points_file"),
+    ("sprocket", "dxf_file"),
+    ("mechanism", "table_file"),
+    ("load", "duty_file"),
+    ("finite_elements", "axis_file"),
+)
+"""Tables and keys of the inputs that name a file."""
+
+
+def file_paths(tables: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """Return where the inputs name files: table and key, between them the number of one of several tables.
+
+    Examples
+    --------
+    >>> file_paths({"sprocket": [{"teeth": 17}, {"dxf_file": "gap.dxf"}]})
+    [('sprocket', '2', 'dxf_file')]
+    """
+    found: list[tuple[str, ...]] = []
+    for table, key in FILE_KEYS:
+        given = tables.get(table)
+        if isinstance(given, list):
+            places = [(table, str(number)) for number in range(1, len(given) + 1)]
+            found += [(*place, key) for place, one in zip(places, given, strict=True) if _has(one, key)]
+        elif _has(given, key):
+            found.append((table, key))
+    return found
+
+
+def _has(table: object, key: str) -> bool:
+    return isinstance(table, Mapping) and key in table
+
+
+OUTSIDE = (
+    "must name a file in the folder of the input or below it: copy it there, or if you trust the input give "
+    "--allow-outside, in Python `with wearsim.allow_outside():`"
+)
+"""What is said of a file that an input must not name, before what it names."""
+
+_allowed: list[bool] = [False]
+"""Whether files may lie anywhere: of the whole process, as the page reads inputs in several threads."""
+
+
+@contextmanager
+def allow_outside() -> Iterator[None]:
+    """Let inputs that are read in the block name files anywhere.
+
+    Else a case or a table of readings that is read from a file may name files in its own folder and
+    below it only, so that an input from others cannot have other files of yours read. A link counts by
+    what it leads to. Tables that a program gives may name any file.
+
+    Examples
+    --------
+    >>> with allow_outside():
+    ...     is_outside(Path("drives"), "/measured/flank.csv")
+    False
+    >>> is_outside(Path("drives"), "/measured/flank.csv"), is_outside(Path("drives"), "flank.csv")
+    (True, False)
+    """
+    before, _allowed[0] = _allowed[0], True
+    try:
+        yield
+    finally:
+        _allowed[0] = before
+
+
+def is_outside(folder: Path, name: str) -> bool:
+    """Tell whether a file lies out of the folder of the input that names it, and must not."""
+    if _allowed[0] or "\0" in name:
+        return False
+    inside = Path(os.path.realpath(folder))
+    return not Path(os.path.realpath(folder / name)).is_relative_to(inside)
