@@ -179,7 +179,9 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("name", REFUSED)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow) if "gear" in name else name for name in REFUSED]
+)
 def test_refused_pictures(cli, tmp_path, name):
     drawn, message = REFUSED[name]
     path = tmp_path / ("bad.tif" if name == "floating point" else "bad.png")
@@ -271,7 +273,9 @@ def test_an_empty_file(cli, tmp_path):
     assert "is none of them" in cli("scan", tmp_path / "empty.jpg", "--chain", "08B").err
 
 
-@pytest.mark.parametrize("orientation", range(1, 9))
+@pytest.mark.parametrize(
+    "orientation", [6, *(pytest.param(one, marks=pytest.mark.slow) for one in (1, 2, 3, 4, 5, 7, 8))]
+)
 def test_every_orientation(cli, photo, tmp_path, orientation):
     """Mirrored ones show the other flank."""
     exif = Image.Exif()
@@ -296,7 +300,13 @@ def test_a_picture_is_turned_as_its_camera_says(photo, tmp_path):
     assert found == {6: "clockwise", 5: "clockwise"}
 
 
-@pytest.mark.parametrize("mode", ["RGB", "RGBA", "P", "I;16", "TIFF", "CMYK", "clear"])
+@pytest.mark.parametrize(
+    "mode",
+    [
+        "RGBA",
+        *(pytest.param(one, marks=pytest.mark.slow) for one in ("RGB", "P", "I;16", "TIFF", "CMYK", "clear")),
+    ],
+)
 def test_kinds_of_pictures(photo, tmp_path, mode):
     upright = Image.open(photo)
     path = tmp_path / "wheel.png"
@@ -318,6 +328,7 @@ def test_kinds_of_pictures(photo, tmp_path, mode):
 COARSE = {"sprocket.nodes": 101, "mechanism.phases": 1, "run.life_tolerance": 0.1}
 
 
+@pytest.mark.slow
 def test_a_shared_reading_gives_the_same_hours(cli, photo, tmp_path):
     """Written by a scan, read by `remaining`."""
     settings = [word for key, value in COARSE.items() for word in ("--set", f"{key}={value}")]

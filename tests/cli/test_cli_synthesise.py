@@ -333,7 +333,7 @@ def results_without_pictures(document):
         return results(document)
 
 
-@pytest.mark.wide
+@pytest.mark.slow
 @pytest.mark.parametrize(("key", "value"), CHANGES.items())
 def test_every_key_changes_the_result(base_results, key, value):
     document = copy.deepcopy(BASE)

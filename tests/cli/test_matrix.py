@@ -83,7 +83,10 @@ REASONS = {
 """Why a command has no answer for a kind of case: exit code 2, and these words."""
 
 
-LONG = {("optimise --evaluations 10 --threads 1", kind) for kind in ("loop", "cassette")}
+LONG = {
+    ("optimise --evaluations 10 --threads 1", "drive"),
+    *((command, kind) for command in COMMANDS for kind in ("loop", "cassette") if "--threads" in command),
+}
 """Cells that take too long for every change; `.ci/slow` runs them."""
 
 

@@ -60,6 +60,7 @@ def test_rows_of_text_json_and_csv_agree(cli, tmp_path):
     assert (found["criterion"], found["nearest_miss"]) == ("mass", None)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "option",
     [

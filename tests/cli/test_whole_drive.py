@@ -418,6 +418,7 @@ def test_grids_of_all_sprockets_are_verified(cli, drive):
     assert {name: len(grid["nodes"]) for name, grid in found["grid"].items()} == {"driver": 3, "roll": 3}
 
 
+@pytest.mark.slow
 def test_a_key_is_solved_for_on_a_drive(cli, drive):
     """The chain ends first, its joints wear by its pull: half the power, twice the life."""
     hours = min(lives(cli, drive).values())

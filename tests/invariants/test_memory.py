@@ -31,7 +31,8 @@ def peak(wear: Callable[[], object]) -> int:
         tracemalloc.stop()
 
 
-@pytest.mark.parametrize("method", ["advance", pytest.param("per_cycle", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("method", ["advance", "per_cycle"])
 def test_ten_times_the_cycles(build: Callable[..., Mechanism], method: str) -> None:
     contact, stop_limits = build(101).contact, (depth_limit(0.05),)
 

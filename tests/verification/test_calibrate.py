@@ -119,6 +119,7 @@ def inside(interval, truth):
     return interval.low <= truth <= interval.high
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("error", [0.001, 0.004, 0.015], ids=["1um", "4um", "15um"])
 def test_intervals_of_the_coefficient_and_of_the_life_hold_nine_of_ten(tmp_path, once, error):
     """Errors of 1 to 15 % of the limit; the case starts from three times the coefficient."""

@@ -196,6 +196,7 @@ KNOWN = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", KNOWN)
 def test_the_law_behind_the_data_wins(name):
     worn, fields = KNOWN[name]
@@ -224,6 +225,7 @@ def test_a_factor_that_wanders_is_told_from_one_that_stays():
     assert judged.best.scatter == "walk" and not judged.laws[1].tied
 
 
+@pytest.mark.slow
 def test_bands_of_200_data_sets_hold_what_they_say():
     """The last two readings of 5 known series, 200 times: shares in the bands, to 3 standard errors."""
     inside = {0.5: [], 0.9: []}

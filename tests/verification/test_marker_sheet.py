@@ -138,6 +138,7 @@ def test_standard_errors_of_30_prints(scanned, sheet):
     assert off.max() < 3.5
 
 
+@pytest.mark.slow
 def test_a_chain_of_like_form_is_refused(scanned, sheet):
     """Teeth of 10B look like those of 08B, 1.25 times as large."""
     with pytest.raises(wearsim.CaseError, match=r"marker sheet .* differ by -2\d\.\d %"):
@@ -146,6 +147,7 @@ def test_a_chain_of_like_form_is_refused(scanned, sheet):
         scanned(over_sheet(Print.of(sheet, at=ORIGIN)), chain="10B")
 
 
+@pytest.mark.slow
 def test_a_print_that_was_fitted_to_the_page(scanned, sheet):
     camera = over_sheet(Print.of(sheet, 0.97, at=ORIGIN))
     (warning,) = scanned(camera).warnings
@@ -156,6 +158,7 @@ def test_a_print_that_was_fitted_to_the_page(scanned, sheet):
     assert found.found.depths.place.known.scale == pytest.approx(true_scale(camera), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_height_that_is_not_known_is_told(sheet, tmp_path):
     """35 mm are assumed without a note; the camera of 700 mm and 5 pixels per mm has 3500 pixels, 84 mm."""
     camera = replace(
@@ -181,6 +184,7 @@ def test_a_sheet_that_is_not_flat(scanned, sheet, bulge, message):
         scanned(camera)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", ["hand", "cut"])
 def test_half_of_the_dots_suffice(scanned, sheet, part):
     printed = Print.of(sheet, at=ORIGIN)
@@ -220,6 +224,7 @@ def test_teeth_as_thick_as_the_camera_is_high_are_refused(scanned, sheet, thickn
         scanned(over_sheet(Print.of(sheet, at=ORIGIN), tilt=math.radians(6.0)), thickness=thickness)
 
 
+@pytest.mark.slow
 def test_a_mirrored_picture_is_told(scanned, sheet):
     found = scanned(over_sheet(Print.of(sheet, at=ORIGIN), mirror=True))
     assert found.summary()["mirrored"] is True

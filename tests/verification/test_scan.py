@@ -44,7 +44,9 @@ CAMERAS = {
 }
 
 
-@pytest.mark.parametrize("name", CAMERAS)
+@pytest.mark.parametrize(
+    "name", [name if name == "tilted" else pytest.param(name, marks=pytest.mark.slow) for name in CAMERAS]
+)
 def test_depth_of_a_pocket(scanned, name):
     found = scanned(worn_wheel(), CAMERAS[name])
     content = found.summary()
@@ -73,6 +75,7 @@ def test_one_tooth_of_twice_the_wear(scanned):
     assert sorted(depths)[-2:] == pytest.approx([0.3, 0.6], abs=0.06)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("teeth", "form"), [(9, "gost591"), (40, "ansi_b29")])
 def test_other_wheels(scanned, teeth, form):
     camera = Camera(size=(900, 900), turn=0.1)
@@ -102,6 +105,7 @@ def test_a_wheel_that_wearsim_wore(scanned):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("teeth", [19, 20])
 def test_over_pins_of_a_new_wheel(scanned, teeth):
     """The centre of the seat's arc of 0.505 roller diameters is on the pitch circle: pins lie at its bottom.
@@ -120,6 +124,7 @@ def test_over_pins_of_a_new_wheel(scanned, teeth):
     assert content["over_pins_mm"] == pytest.approx(size - content["size_over_pins_mm"], abs=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("depth", "at", "width"), [(0.2, 0.5, 0.2), (0.2, 0.55, 0.15), (0.1, 0.55, 0.2)])
 def test_over_pins_of_a_worn_seat(scanned, depth, at, width):
     """Pins sink into pockets at the bottom, as far as their sides let them."""
@@ -130,6 +135,7 @@ def test_over_pins_of_a_worn_seat(scanned, depth, at, width):
     assert abs(content["over_pins_mm"] - decrease) < 2.0 * content["over_pins_se_mm"] < 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mirror", [False, True])
 def test_an_asymmetric_form(scanned, mirror):
     case = wearsim.load_case("08b-19t-wrap").with_({"sprocket.profile": "evolute"})
@@ -140,12 +146,14 @@ def test_an_asymmetric_form(scanned, mirror):
     assert abs(found.depth - 0.3) < 3.0 * found.depth_error
 
 
+@pytest.mark.slow
 def test_worn_tips(scanned):
     gap = with_worn_tips(with_pocket(new_gap(PITCH, ROLLER, 19), 0.3), 0.3)
     found = scanned(wheel([gap] * 19), Camera())
     assert abs(found.depth - 0.3) < 3.0 * found.depth_error
 
 
+@pytest.mark.slow
 def test_both_flanks_worn(scanned):
     gap = with_pocket(with_pocket(new_gap(PITCH, ROLLER, 19), 0.3)[::-1] * [-1.0, 1.0], 0.25)
     found = scanned(wheel([gap] * 19), Camera(size=(900, 900)))
@@ -153,12 +161,14 @@ def test_both_flanks_worn(scanned):
     assert abs(found.depth - 0.3) < 3.0 * found.depth_error
 
 
+@pytest.mark.slow
 def test_a_bright_rim_is_told(scanned):
     found = scanned(worn_wheel(), Camera(shine=0.15))
     assert "are not clean" in found.summary()["warnings"][0]
     assert abs(found.depth - 0.3) < 3.0 * found.depth_error
 
 
+@pytest.mark.slow
 def test_scales_from_elsewhere(scanned):
     """The bore has a fifth of the tip diameter; the wheel fills 0.8 of 600 pixels."""
     tip = 2.0 * float(np.hypot(*new_gap(PITCH, ROLLER, 19)[0]))
