@@ -147,6 +147,57 @@ def chain_on(pitch: float, roller: float, teeth: int, links: int) -> list[Points
     return shapes
 
 
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A flat part of something that lies beside the wheel, or covers what was drawn before it."""
+
+    outline: Points  # [mm]
+    height: float  # above the plane aimed at [mm]
+    light: float  # its reflectance
+
+
+def chain_beside(
+    pitch: float,
+    plate: float,
+    width: float,
+    links: int,
+    start: tuple[float, float],
+    turn: float,
+    elongation: float,
+    bow: float = 0.0,
+) -> tuple[list[Face], Points]:
+    """Return a chain on its side, and the middles of its pins at the height of its upper plates [mm].
+
+    Bushes have worn: it is the links between pins of two outer plates that are longer. A bow lifts its middle
+    aside [mm].
+    """
+    ways = np.where(np.arange(links) % 2, pitch, pitch * (1.0 + 0.02 * elongation))
+    along = np.concatenate([[0.0], np.cumsum(ways)])
+    part = along / along[-1]
+    pins = np.column_stack([along, 4.0 * bow * part * (1.0 - part)])
+    cos, sin = math.cos(turn), math.sin(turn)
+    pins = pins @ np.array([[cos, sin], [-sin, cos]]) + start
+    angle = np.linspace(0.0, math.tau, 120, endpoint=False)
+    circle = np.column_stack([np.cos(angle), np.sin(angle)])
+
+    def plates(first: int, half: float, height: float, light: float) -> list[Face]:
+        faces = []
+        for one, other in list(pairwise(pins))[first::2]:
+            way = (other - one) / math.dist(one, other)
+            across = np.array([-way[1], way[0]])
+            middle, waist = 0.5 * (one + other), 0.72 * half * across
+            bar = np.array([one + waist, other + waist, other - waist, one - waist])
+            faces += [Face(one + half * circle, height, light), Face(other + half * circle, height, light)]
+            faces += [Face(bar, height, light), Face(middle + 0.5 * half * circle, height, 0.9 * light)]
+        return faces
+
+    outer, inner = 0.5 * plate - 0.3, 0.5 * plate
+    low = [one for level in (0.2, 0.4, 0.6) for one in plates(0, outer, level * width, 0.03)]
+    heads = [Face(pin + 0.17 * pitch * circle, width, 0.3) for pin in pins]
+    faces = [*low, *plates(1, inner, 0.86 * width, 0.12), *plates(0, outer, 0.95 * width, 0.16), *heads]
+    return faces, pins
+
+
 def photographed(points: Points, radius: float, camera: Camera, height: float = 0.0) -> tuple[Points, float]:
     """Return points so high above the wheel's plane [mm] in the picture, and the pixels of a millimetre."""
     turned = points @ np.array(
@@ -195,8 +246,10 @@ def on_table(camera: Camera, radius: float) -> NDArray[np.float32]:
     return camera.printed.seen_from(points, below, away * math.cos(camera.tilt), camera.ground_light)
 
 
-def picture(outline: Points, camera: Camera, chain: Sequence[Points] = ()) -> Image.Image:
-    """Return the picture of a wheel, with the parts of a chain on it."""
+def picture(
+    outline: Points, camera: Camera, chain: Sequence[Points] = (), beside: Sequence[Face] = ()
+) -> Image.Image:
+    """Return the picture of a wheel, with the parts of a chain on it, and with one beside it."""
     rng = np.random.default_rng(camera.seed)
     width, height = camera.size
     radius = float(np.hypot(*outline.T).max())
@@ -223,6 +276,9 @@ def picture(outline: Points, camera: Camera, chain: Sequence[Points] = ()) -> Im
         face += camera.shine * np.exp(-(((inside - 0.3) / 0.12) ** 2))
     ground = camera.ground_light if camera.printed is None else on_table(camera, radius)
     image = lit * (ground * (1.0 - cover) + face * cover)
+    for face in beside:
+        covered = _covered([photographed(face.outline, radius, camera, face.height)[0]], width, height)
+        image += covered * (face.light * lit - image)
     for _ in range(camera.dirt):
         x, y = seen[0][rng.integers(len(seen[0]))] + rng.normal(0.0, 2.0, 2)
         size = rng.uniform(0.002, 0.008) * min(camera.size)

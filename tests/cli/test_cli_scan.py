@@ -108,6 +108,12 @@ def test_another_number_of_teeth(cli, photo):
         ("--chain", "08B", "--scale", "1,2,300,2,nan"),
         ("--chain", "08B", "--thickness-mm", "7.2"),
         ("--chain", "08B", "--set", "load.speed_rpm=1"),
+        ("--chain", "08B", "--chain-beside", "1,2,300,2,10"),
+        ("--chain", "08B", "--chain-width-mm", "17"),
+        ("--chain", "08B", "--chain-beside", "1,2,300,2,9", "--chain-width-mm", "17"),
+        ("--chain", "08B", "--chain-beside", "1,2,300,2,10.5", "--chain-width-mm", "17"),
+        ("--chain", "08B", "--chain-beside", "1,2,300,10", "--chain-width-mm", "17"),
+        ("--chain", "08B", "--chain-beside", "1,2,300,2,10", "--chain-width-mm", "0"),
         ("--chain", "99X"),
     ],
 )

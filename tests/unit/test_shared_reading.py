@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import wearsim
-from wearsim.readings.shared_reading import case_conditions, read_reading
+from wearsim.readings.shared_reading import case_conditions, check_sprocket, read_reading
 
 READING = """\
 format_version = 1
@@ -73,6 +73,14 @@ def test_what_is_wrong_is_named(read, before, after, message):
     with pytest.raises(wearsim.CaseError, match=message) as caught:
         read(before, after)
     assert re.match(r".*reading\.toml(:\d+)?: ", str(caught.value))
+
+
+def test_a_chain_by_another_of_its_names(read, tmp_path):
+    case = wearsim.load_case("08b-19t-wrap")
+    for name in ("08B-1", "08B", "08b"):
+        check_sprocket(read("08B-1", name), case, tmp_path)
+    with pytest.raises(wearsim.CaseError, match=r"must be that of the case, 08B-1, but is 10B"):
+        check_sprocket(read("08B-1", "10B"), case, tmp_path)
 
 
 def test_conditions_of_a_case():

@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, field_validator
 
 from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import chains
 from wearsim.catalogue.chain_names import known_chain_name
 from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
@@ -112,14 +113,17 @@ def check_sprocket(found: SharedReading, case: Case, file: Path) -> None:
     faults = [
         Fault(f"must be that of the case, {given[key]}, but is {value}: give its case", key, str(file))
         for key in ("designation", "teeth")
-        if key in given and (value := getattr(found.conditions, key)) not in (None, _known(key, given[key]))
+        if key in given
+        and (value := getattr(found.conditions, key)) is not None
+        and _plain(key, value) != _plain(key, given[key])
     ]
     if faults:
         raise CaseError([Fault(one.message, f"conditions.{one.key}", one.file) for one in faults])
 
 
-def _known(key: str, value: Any) -> Any:
-    return known_chain_name(value) if key == "designation" else value
+def _plain(key: str, value: Any) -> Any:
+    """Return a value in one form: 08B is 08B-1."""
+    return chains()[known_chain_name(value)].designation if key == "designation" else value
 
 
 def case_conditions(case: Case) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wearsim.case.model import Case
+from wearsim.catalogue.catalogues import Chain
 from wearsim.drive.case_input import CaseInput, loaded
 from wearsim.drive.drive_case import DriveCase
 from wearsim.errors import ABOVE_0, Allowed, CaseError, Fault, Range, check_ranges, check_series
@@ -14,12 +15,21 @@ from wearsim.readings.shared_reading import reading_toml
 from wearsim.report.answer_table import csv_of
 from wearsim.report.public_answer import DrawnAnswer
 from wearsim.runner.in_threads import Progress, silent
+from wearsim.scanning.chain_beside import ChainBeside, measure_chain
 from wearsim.scanning.known_scales import LookUp, by_bore, by_dots, by_points
 from wearsim.scanning.model import SURE, ScannedWheel, scan_photograph
-from wearsim.scanning.new_wheel import STANDARDS, NewWheel, wheel_of_case, wheel_of_chain
+from wearsim.scanning.new_wheel import STANDARDS, NewWheel, chain_named, wheel_of_case, wheel_of_chain
 from wearsim.scanning.photograph import Photograph, read_photograph
-from wearsim.scanning.sheet import depth_table, points_csv, readings_csv, scan_json, scan_text, tooth_table
-from wearsim.scanning.sheet_placement import check_thickness, find_sheet
+from wearsim.scanning.sheet import (
+    chain_csv,
+    depth_table,
+    points_csv,
+    readings_csv,
+    scan_json,
+    scan_text,
+    tooth_table,
+)
+from wearsim.scanning.sheet_placement import check_circle, check_thickness, find_sheet
 from wearsim.scanning.silhouette import Silhouette, find_silhouette
 from wearsim.study.remaining.model import DEPTH, SingleReading, remaining_life
 
@@ -31,8 +41,10 @@ _ALLOWED: dict[str, Allowed] = {
     "teeth": Range(least=5, most=150, whole=True, optional=True),
     "profile": (*STANDARDS, None),
     "ruler": Range(least=50.0, most=200.0, optional=True),
-    **dict.fromkeys(("bore", "dpi", "thickness", "hours"), Range(above=0.0, optional=True)),
+    **dict.fromkeys(("bore", "dpi", "thickness", "chain_width", "hours"), Range(above=0.0, optional=True)),
 }
+
+_LINKS = Range(least=2, most=200, whole=True)
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -82,6 +94,11 @@ class ScanResult(DrawnAnswer):
     def depth_error(self) -> float:
         """Standard error of the depth [mm]."""
         return self.found.depths.depth_error
+
+    @property
+    def chain_elongation(self) -> float | None:
+        """How much longer the chain beside the wheel is than new [%]; None where none is measured."""
+        return None if self.found.chain is None else self.found.chain.elongation
 
     @property
     def teeth(self) -> "pd.DataFrame":
@@ -135,11 +152,14 @@ class ScanResult(DrawnAnswer):
         )
         if readings and self.case is not None:
             readings["reading.toml"] = self.shared_reading()
+        chain, hours = self.found.chain, self.found.hours
+        chain_reading = {} if chain is None or hours is None else {"chain.csv": chain_csv(chain, hours)}
         return {
             "teeth.csv": csv_of(self.teeth),
             "gap.csv": csv_of(self.gap),
             "points.csv": points_csv(self.found),
             **readings,
+            **chain_reading,
             "scan.txt": f"{self.explained}\n",
         }
 
@@ -156,6 +176,8 @@ def scan(
     dpi: float | None = None,
     ruler: float | None = None,
     thickness: float | None = None,
+    chain_beside: tuple[float, float, float, float, int] | None = None,
+    chain_width: float | None = None,
     hours: float | None = None,
     sprocket: str | None = None,
     progress: Progress = silent,
@@ -189,6 +211,11 @@ def scan(
         Length of the ruler on the print of a marker sheet [mm]; 100 by default.
     thickness : float, optional
         Thickness of the teeth on a marker sheet [mm]; by default the tooth width of the chain or the case.
+    chain_beside : tuple of float, optional
+        Two pins x1, y1, x2, y2 [px] of a chain that lies on its side beside the wheel on the marker sheet, or
+        on the same table, and the even number of links between them: its elongation is measured.
+    chain_width : float, optional
+        Width of that chain over the ends of a pin [mm]; needed with ``chain_beside``.
     hours : float, optional
         Running hours of the sprocket since it was new [h]; with a case the hours that are left follow.
     sprocket : str, optional
@@ -204,7 +231,8 @@ def scan(
     Raises
     ------
     TypeError
-        Neither a case nor a chain is given, or both, or several scales.
+        Neither a case nor a chain is given, or both, or several scales, or only one of chain_beside and
+        chain_width.
     CaseError
         What is wrong with the photograph, the case or the chain.
     GeometryError
@@ -226,17 +254,27 @@ def scan(
         raise TypeError("scan: teeth and profile belong to a chain, a case has its own")
     if sum(one is not None for one in (bore, scale, dpi)) > 1:
         raise TypeError("scan: must be given at most one of bore, scale and dpi")
+    if (chain_beside is None) != (chain_width is None):
+        raise TypeError("scan: chain_beside and chain_width must be given together")
     numbers = {"bore": bore, "dpi": dpi, "ruler": ruler, "thickness": thickness, "hours": hours}
+    numbers["chain_width"] = chain_width
     check_ranges("scan", {"teeth": teeth, "profile": profile, **numbers}, _ALLOWED)
     if scale is not None:
         check_series("scan", "scale", scale, Range(least=0.0), 5)
         check_ranges("scan", {"scale[4]": scale[4]}, {"scale[4]": ABOVE_0})
+    if chain_beside is not None:
+        check_series("scan", "chain_beside", chain_beside, Range(least=0.0), 5)
+        check_ranges("scan", {"chain_beside[4]": chain_beside[4]}, {"chain_beside[4]": _LINKS})
     one = None if case is None else _of_one(loaded(case), sprocket)
     picture = photograph if isinstance(photograph, Photograph) else read_photograph(Path(photograph))
     sheet = find_sheet(picture, ruler)
     if thickness is not None:
         check_thickness(thickness, sheet, picture.name)
-    plain = picture if sheet is None else sheet.cleared(picture)
+    beside = None
+    if chain_beside is not None and chain_width is not None:
+        asked = ChainBeside(chain_beside[:4], int(chain_beside[4]), chain_width)
+        beside = measure_chain(picture, sheet, _chain(one, chain).pitch, asked)
+    plain = picture if sheet is None else sheet.cleared(picture, None if beside is None else beside.outline)
     seen = find_silhouette(plain)
     if one is not None:
         wheel = wheel_of_case(one)
@@ -244,10 +282,14 @@ def scan(
         assert chain is not None
         wheel = replace(wheel_of_chain(chain, teeth or seen.teeth, profile), per_case=teeth is not None)
     wheel = replace(wheel, thickness=thickness or wheel.thickness)
+    if sheet is not None:
+        check_circle(wheel, sheet, picture.name)
     known = _scale(plain, seen, wheel, bore, scale, dpi)
     if known is None and sheet is not None:
         known = sheet.scale_of(wheel)
     found = replace(scan_photograph(plain, seen, wheel, known, sheet), photograph=picture)
+    if beside is not None:
+        found = replace(found, chain=beside, warnings=(*found.warnings, *beside.warnings))
     return ScanResult(_with_hours(found, one, hours, progress), one)
 
 
@@ -265,6 +307,17 @@ def _scale(
     if scale is not None:
         return by_points(picture, scale[:4], scale[4])
     return None if dpi is None else by_dots(dpi)
+
+
+def _chain(case: Case | None, designation: str | None) -> Chain:
+    """Return the chain of a case, or that of a name."""
+    if designation is not None:
+        return chain_named(designation)
+    found: Chain | None = None if case is None else getattr(case.drive, "chain", None)
+    if found is None:
+        text = "the case must have a chain if the length of one is to be measured, but has none"
+        raise CaseError([Fault(text, "chain", "" if case is None else case.name)])
+    return found
 
 
 def _of_one(case: Case | DriveCase, sprocket: str | None) -> Case:

@@ -30,21 +30,38 @@ _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 class _ScalePoints(click.ParamType):  # type: ignore[type-arg]  # generic in newer click only
     """Two points of a picture and how far they are apart."""
 
-    name = "points"
+    name, last = "points", "mm"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the five numbers."""
+        numbers = self._numbers(value, param, ctx)
+        if numbers[4] <= 0.0:
+            self.fail(f"the distance must be above 0 mm, is {numbers[4]:g}", param, ctx)
+        return numbers
+
+    def _numbers(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         try:
             numbers = tuple(float(part) for part in str(value).split(","))
         except ValueError:
             numbers = ()
         if len(numbers) != 5:
-            self.fail(f"{value!r} is not five numbers x1,y1,x2,y2,mm", param, ctx)
+            self.fail(f"{value!r} is not five numbers x1,y1,x2,y2,{self.last}", param, ctx)
         if not all(math.isfinite(number) for number in numbers):
             self.fail(f"{value!r} must hold finite numbers", param, ctx)
-        if numbers[4] <= 0.0:
-            self.fail(f"the distance must be above 0 mm, is {numbers[4]:g}", param, ctx)
         return numbers
+
+
+class _ChainPins(_ScalePoints):
+    """Two pins of a chain in a picture, and the number of links between them."""
+
+    name, last = "pins", "links"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return four numbers and a whole one."""
+        numbers = self._numbers(value, param, ctx)
+        if not (numbers[4] % 2.0 == 0.0 and 2.0 <= numbers[4] <= 200.0):
+            self.fail(f"the links must be an even number from 2 to 200, are {numbers[4]:g}", param, ctx)
+        return (*numbers[:4], int(numbers[4]))
 
 
 @click.command(short_help="Measure the wear of a sprocket in a photograph.")
@@ -105,6 +122,20 @@ class _ScalePoints(click.ParamType):  # type: ignore[type-arg]  # generic in new
     help="Thickness of the teeth that lie on the marker sheet; default: the tooth width of the chain.",
 )
 @click.option(
+    "--chain-beside",
+    type=_ChainPins(),
+    metavar="X1,Y1,X2,Y2,LINKS",
+    help="Also measure the elongation of a chain that lies on its side beside a sprocket on a marker sheet: "
+    "two of its pins, in pixels, and the even number of links between them. Needs --chain-width-mm.",
+)
+@click.option(
+    "--chain-width-mm",
+    type=_POSITIVE,
+    metavar="MM",
+    callback=finite,
+    help="Width of the chain of --chain-beside over the ends of a pin.",
+)
+@click.option(
     "--hours",
     type=_POSITIVE,
     metavar="H",
@@ -129,6 +160,8 @@ def scan(
     dpi: float | None,
     ruler_mm: float | None,
     thickness_mm: float | None,
+    chain_beside: tuple[float, float, float, float, int] | None,
+    chain_width_mm: float | None,
     hours: float | None,
     sprocket: str | None,
     shown: Shown,
@@ -160,6 +193,8 @@ def scan(
         raise click.UsageError("--teeth and --profile belong to --chain: a CASE has its own")
     if sum(one is not None for one in (bore_mm, scale, dpi)) > 1:
         raise click.UsageError("give at most one of --bore-mm, --scale and --dpi")
+    if (chain_beside is None) != (chain_width_mm is None):
+        raise click.UsageError("give --chain-beside and --chain-width-mm together")
     loaded = None
     if case is not None:
         loaded = one_sprocket(load_cases([case], settings, shown.as_json)[0], case, sprocket)
@@ -178,6 +213,8 @@ def scan(
             dpi=dpi,
             ruler=ruler_mm,
             thickness=thickness_mm,
+            chain_beside=chain_beside,
+            chain_width=chain_width_mm,
             hours=hours,
             progress=progress,
         )

@@ -49,7 +49,14 @@ def _draw_picture(axes: Axes, found: ScannedWheel) -> None:
     for number, (x, y) in enumerate(tips + 0.08 * (tips - place.projection.seen(np.zeros(2))), 1):
         axes.text(x, y, str(number), color="C0", fontsize=6, ha="center", va="center")
     reach = 1.25 * np.abs(tips - tips.mean(axis=0)).max(axis=0)
-    (left, top), (right, bottom) = tips.mean(axis=0) - reach, tips.mean(axis=0) + reach
+    shown = np.array([tips.mean(axis=0) - reach, tips.mean(axis=0) + reach])
+    if found.chain is not None:
+        pins = found.chain.pins
+        axes.plot(
+            *pins.T, "+", color="C1", markersize=6, label=f"every second pin, {found.chain.links} links"
+        )
+        shown = np.concatenate([shown, pins - 0.2 * reach, pins + 0.2 * reach])
+    (left, top), (right, bottom) = shown.min(axis=0), shown.max(axis=0)
     axes.set(xlim=(max(left, -0.5), min(right, width)), ylim=(min(bottom, height), max(top, -0.5)))
     # As deep wear is drawn: a collection of many colours has the first one in a legend.
     axes.plot([], [], color=colormaps["plasma"](0.7), label=f"worn edge, depth x {factor}")

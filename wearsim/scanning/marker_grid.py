@@ -79,7 +79,7 @@ class MarkerSheet:
     @property
     def free_radius(self) -> float:
         """Radius of the circle that has no dots [mm]."""
-        return SPACING * self._reach[0] - DOT - _CLEAR
+        return free_radius(self._reach[0])
 
     @property
     def dots(self) -> Numbers:
@@ -88,6 +88,17 @@ class MarkerSheet:
         column, row = np.meshgrid(np.arange(-across, across + 1), np.arange(-up, up + 1))
         free = np.hypot(column, row) * SPACING < self.free_radius + DOT + 0.5 * _CLEAR
         return np.column_stack([column[~free], row[~free]])
+
+
+def free_radius(columns: int) -> float:
+    """Return the radius of the circle without dots between outermost columns [mm].
+
+    Examples
+    --------
+    >>> free_radius(9)
+    84.0
+    """
+    return SPACING * columns - DOT - _CLEAR
 
 
 def dot_points(dots: Numbers) -> Vector:

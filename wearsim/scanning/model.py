@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from wearsim.scanning.chain_beside import SeenChain
 from wearsim.scanning.flank_depths import FlankDepths, flank_depths
 from wearsim.scanning.known_scales import LookUp
 from wearsim.scanning.new_wheel import NewWheel
@@ -15,6 +16,9 @@ from wearsim.study.remaining.model import RemainingLife
 
 _TILTED = 0.97
 """Smaller diameter over the larger one, below which the sides of the teeth are seen too."""
+
+_TILTED_SHEET = math.radians(8.0)
+"""Tilt against a marker sheet from which their chamfers move the depth [rad]."""
 
 _OFF_FORM = 0.15
 """How far the mean of all gaps may be off the new form where it does not wear [px]."""
@@ -47,6 +51,7 @@ class ScannedWheel:
     depths: FlankDepths
     warnings: tuple[str, ...]
     sheet: SeenSheet | None = None  # that lies under it
+    chain: SeenChain | None = None  # that lies beside it
     hours: float | None = None  # running time of the sprocket [h]
     remaining: RemainingLife | None = None  # what is left of its life after them
 
@@ -75,6 +80,7 @@ class ScannedWheel:
             else f"the scale is that of {known.words}",
             seen,
             "the picture is coded as sRGB, as cameras and scanners do",
+            *(() if self.chain is None else (self.chain.assumption,)),
         )
 
 
@@ -173,7 +179,7 @@ def _scale_warnings(place: Placement) -> Iterator[str]:
 
 def _tilt_warnings(seen: Silhouette, sheet: SeenSheet | None) -> Iterator[str]:
     tilt = math.acos(min(1.0, seen.roundness)) if sheet is None else sheet.camera.tilt
-    if math.cos(tilt) < _TILTED:
+    if tilt > (math.acos(_TILTED) if sheet is None else _TILTED_SHEET):
         yield (
             f"the camera was tilted by about {math.degrees(tilt):.0f} degrees, and may see sides of teeth: "
             "hold it level"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wearsim.catalogue.catalogues import chains
+from wearsim.catalogue.catalogues import Chain, chains
 from wearsim.catalogue.chain_names import known_chain_name
 from wearsim.errors import CaseError, Fault, GeometryError
 from wearsim.geometry.forms import TOOTH_FORMS
@@ -32,7 +32,7 @@ class NewWheel:
     gap: Vector  # points of a gap about +y, from its right tip to its left one [mm], shape (n, 2)
     words: str  # which form it is
     thickness: float  # of the teeth [mm]
-    roller_diameter: float | None = None  # of the chain [mm]; None where no chain is known
+    chain: Chain | None = None  # that it is made for; None where none is known
     per_case: bool = False  # whether the number of teeth was said, not counted
 
     @property
@@ -114,16 +114,20 @@ def wheel_of_case(case: "Case") -> NewWheel:
     apart = np.concatenate([[True], np.hypot(*np.diff(points, axis=0).T) > 1e-9])
     pitch = 2.0 * shape.pitch_radius * math.sin(math.pi / len(shape.new))
     words, chain = f"the sprocket of {case.title}", getattr(case.drive, "chain", None)
-    roller = None if chain is None else float(chain.roller_diameter)
-    return NewWheel(len(shape.new), pitch, points[apart], words, shape.width, roller, per_case=True)
+    return NewWheel(len(shape.new), pitch, points[apart], words, shape.width, chain, per_case=True)
+
+
+def chain_named(designation: str) -> Chain:
+    """Return a chain of the catalogue."""
+    try:
+        return chains()[known_chain_name(designation)]
+    except ValueError as error:
+        raise CaseError([Fault(str(error), "", f"--chain {designation}")]) from None
 
 
 def wheel_of_chain(designation: str, teeth: int, profile: str | None) -> NewWheel:
     """Return the sprocket of a standard form for a chain; by default the usual form of its series."""
-    try:
-        chain = chains()[known_chain_name(designation)]
-    except ValueError as error:
-        raise CaseError([Fault(str(error), "", f"--chain {designation}")]) from None
+    chain = chain_named(designation)
     form = profile or next(
         (name for name in STANDARDS if chain.series in TOOTH_FORMS[name].usual_for), STANDARDS[0]
     )
@@ -134,7 +138,7 @@ def wheel_of_chain(designation: str, teeth: int, profile: str | None) -> NewWhee
     gap = np.column_stack([outline.x, outline.y])
     words = f"{form} for {chain.designation}, {teeth} teeth"
     thickness = (chain.strands - 1) * chain.transverse_pitch + chain.face_width / chain.strands
-    return NewWheel(teeth, chain.pitch, gap, words, thickness, chain.roller_diameter)
+    return NewWheel(teeth, chain.pitch, gap, words, thickness, chain)
 
 
 def around(points: Vector, teeth: int) -> Vector:

@@ -12,6 +12,7 @@ from wearsim.report.answer_table import AnswerTable, Column, csv_of, plain, tabl
 from wearsim.report.text_lines import Finding, answer_text, closing
 from wearsim.result import life_keys
 from wearsim.result.lives import hours
+from wearsim.scanning.chain_beside import SeenChain
 from wearsim.scanning.model import SURE, ScannedWheel
 from wearsim.scanning.over_pins import OverPins, over_pins
 from wearsim.scanning.sheet_placement import SeenSheet
@@ -112,6 +113,8 @@ def scan_findings(found: ScannedWheel) -> Iterator[Finding]:
     yield Finding("Other flank", f"{max(depths.other_depth, 0.0):.3f} mm where it is deepest")
     if (pins := over_pins(depths)) is not None:
         yield _pins_finding(pins)
+    if found.chain is not None:
+        yield _chain_finding(found.chain)
     yield Finding("New form", f"fits within {depths.misfit:.3f} mm where the wheel is not worn")
     by = (
         f"the form of the teeth, if their pitch is {wheel.pitch:g} mm: a wrong chain gives wrong millimetres "
@@ -142,6 +145,24 @@ def _pins_finding(pins: OverPins) -> Finding:
         f"{pins.size:.3f} mm +- {pins.error:.3f} with pins of the roller's diameter, "
         f"{pins.pin_diameter:g} mm: {less}",
     )
+
+
+def _chain_finding(chain: SeenChain) -> Finding:
+    longer = f"{chain.elongation:.2f} % +- {chain.elongation_error:.2f} longer than new"
+    return Finding(
+        "Chain", f"{longer}: {chain.links} links measure {chain.length:.2f} mm, new {chain.new_length:.6g} mm"
+    )
+
+
+def chain_csv(chain: SeenChain, hours: float) -> str:
+    """Return the elongation as a reading for ``wearsim remaining``."""
+    row = {
+        "time_hours": hours,
+        "quantity": "elongation_percent",
+        "value": round(chain.elongation, 4),
+        "error": round(chain.elongation_error, 4),
+    }
+    return csv_of(table_of([row]))
 
 
 def _seen_by(sheet: SeenSheet) -> str:
@@ -175,6 +196,7 @@ def scan_json(found: ScannedWheel) -> dict[str, Any]:
         "blur_px": place.blur,
         "edge_scatter_px": place.noise,
         **({} if found.sheet is None else _sheet_json(found.sheet)),
+        **({} if found.chain is None else _chain_json(found.chain)),
         "hours": found.hours,
         **({} if left is None else _remaining_json(left)),
         "assumptions": list(found.assumptions),
@@ -204,6 +226,15 @@ def _sheet_json(sheet: SeenSheet) -> dict[str, Any]:
         "camera_height_se_mm": sheet.height * sheet.camera.height_error,
         "lens_distortion": seen.distortion + seen.second_distortion,
         "mirrored": sheet.mirrored,
+    }
+
+
+def _chain_json(chain: SeenChain) -> dict[str, Any]:
+    return {
+        "chain_links": chain.links,
+        "chain_length_mm": chain.length,
+        "chain_elongation_percent": chain.elongation,
+        "chain_elongation_se_percent": chain.elongation_error,
     }
 
 

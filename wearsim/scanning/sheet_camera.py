@@ -1,6 +1,7 @@
 """The camera over a marker sheet: perspective and lens from the dots, and how high it was."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,10 +20,12 @@ _LENS = (0.1, 0.05)
 _FAR_OFF = 5.0
 """Standard deviations from which a dot is taken for partly covered."""
 
-_USUAL = 35.0
-"""Focal length of a camera of 24 x 36 mm that a telephone is like, if none is noted [mm]."""
+_USUAL = 50.0
+"""Focal length of a camera of 24 x 36 mm that a telephone is like, if none is noted [mm]: 26 mm plain, and
+up to 120 mm zoomed in from afar, as the instructions say.
+"""
 
-_FOCAL_ERRORS = (0.4, 0.05)
+_FOCAL_ERRORS = (0.5, 0.05)
 """Standard deviations of its logarithm, and of one that is noted."""
 
 _OFF_MIDDLE = 0.01
@@ -61,13 +64,17 @@ class SheetCamera:
 
     def scale_error(self, point: Vector) -> float:
         """Relative standard deviation of that by the scatter of the dots."""
-        numbers = _numbers(self.projection)
+        return self.error_of(lambda projection: replace(self, projection=projection).scale(point))
 
-        def logarithm(changed: Vector) -> float:
-            return math.log(replace(self, projection=_with(self.projection, changed)).scale(point))
-
-        slopes = [(logarithm(numbers + step) - logarithm(numbers - step)) for step in _steps(self.projection)]
-        slope = np.array(slopes) / (2.0 * _steps(self.projection).diagonal())
+    def error_of(self, measured: Callable[[Projection], float]) -> float:
+        """Relative standard deviation of what is measured by the projection, by the scatter of the dots."""
+        numbers, steps = _numbers(self.projection), _steps(self.projection)
+        slopes = [
+            math.log(measured(_with(self.projection, numbers + step)))
+            - math.log(measured(_with(self.projection, numbers - step)))
+            for step in steps
+        ]
+        slope = np.array(slopes) / (2.0 * steps.diagonal())
         return math.sqrt(slope @ self.covariance @ slope)
 
 

@@ -9,7 +9,7 @@ from scipy.spatial import ConvexHull
 
 from wearsim.geometry.profile_points import Vector
 from wearsim.scanning.known_scales import LookUp
-from wearsim.scanning.marker_grid import DOT, RULER, dot_points
+from wearsim.scanning.marker_grid import DOT, RULER, dot_points, free_radius
 from wearsim.scanning.marker_search import Markers, find_markers
 from wearsim.scanning.new_wheel import NewWheel
 from wearsim.scanning.photograph import Light, Photograph, bad_photograph
@@ -55,9 +55,24 @@ class SeenSheet:
         return self.camera.height * self.stretch
 
     @property
+    def height_known(self) -> bool:
+        """Whether the height of the camera is certain enough for what lies above the sheet."""
+        return self.camera.height_error < _UNKNOWN_HEIGHT
+
+    @property
     def scatter(self) -> float:
         """Standard deviation of a dot in each direction [mm]."""
         return self.camera.noise / self.camera.scale(np.zeros(2)) * self.stretch
+
+    @property
+    def free_radius(self) -> float:
+        """Radius of its free circle, by its outermost column that is seen [mm]."""
+        return free_radius(int(np.abs(self.markers.dots[:, 0]).max())) * self.stretch
+
+    @property
+    def print_error(self) -> float:
+        """Standard deviation of a length by printer and ruler, relative."""
+        return math.hypot(_PRINT_ERROR, self.scatter / RULER)
 
     @property
     def mirrored(self) -> bool:
@@ -71,9 +86,8 @@ class SeenSheet:
             at = self._below(projection, np.zeros((1, 2)))[0]
             middle = 0.5 * wheel.thickness / self.height
             error = math.hypot(
-                _PRINT_ERROR,
+                self.print_error,
                 self.camera.scale_error(at),
-                self.scatter / RULER,
                 _LIFT_ERROR * wheel.thickness / self.height,
                 middle * self.camera.height_error,
             )
@@ -84,7 +98,7 @@ class SeenSheet:
 
     @property
     def _remedy(self) -> str:
-        if self.camera.height_error < _UNKNOWN_HEIGHT:
+        if self.height_known:
             return _REMEDY
         lens = "use a picture that states the focal length, as the height of the camera is uncertain"
         return f"{lens}; {_REMEDY}"
@@ -119,23 +133,30 @@ class SeenSheet:
             f"about {round(self.height, -1):.0f} mm above it, teeth {wheel.thickness:.3g} mm thick)"
         )
 
-    def cleared(self, photograph: Photograph) -> Photograph:
-        """Return a photograph with paper in place of the dots and of all that does not lie between them."""
+    def cleared(self, photograph: Photograph, beside: Vector | None = None) -> Photograph:
+        """Return a photograph with paper in place of the dots and of all that does not lie between them.
+
+        What lies in an outline beside the wheel [px] is paper too.
+        """
         rims = self.camera.projection.seen(
             dot_points(self.markers.dots)[:, None] + _circle(DOT + _AROUND_DOT)
         )
         corners = np.concatenate([*rims])
-        held = Image.fromarray(self._beside_cleared(photograph.light, corners[ConvexHull(corners).vertices]))
+        hull = corners[ConvexHull(corners).vertices]
+        held = Image.fromarray(self._beside_cleared(photograph.light, hull, beside))
         draw = ImageDraw.Draw(held)
         for rim, paper in zip(rims, self.markers.paper, strict=True):
             draw.polygon([*map(tuple, rim)], fill=float(paper))
         return replace(photograph, light=np.array(held))
 
-    def _beside_cleared(self, light: Light, hull: Vector) -> Light:
+    def _beside_cleared(self, light: Light, hull: Vector, beside: Vector | None) -> Light:
         """Return light with that of paper outside of an outline: a plane through that beside the dots."""
         height, width = light.shape
         mask = Image.new("1", (width, height))
-        ImageDraw.Draw(mask).polygon([*map(tuple, hull)], fill=1)
+        draw = ImageDraw.Draw(mask)
+        draw.polygon([*map(tuple, hull)], fill=1)
+        if beside is not None:
+            draw.polygon([*map(tuple, beside)], fill=0)
         rows = np.column_stack([np.ones(len(self.markers.points)), self.markers.points])
         level, across, down = np.linalg.lstsq(rows, self.markers.paper, rcond=None)[0].astype(np.float32)
         x, y = np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32)
@@ -177,6 +198,17 @@ def find_sheet(photograph: Photograph, ruler: float | None = None) -> SeenSheet 
     return sheet
 
 
+def check_circle(wheel: NewWheel, sheet: SeenSheet, photograph: str) -> None:
+    """Raise for a wheel that covers dots of the sheet, which are cleared from the picture with its teeth."""
+    if wheel.tip_radius > sheet.free_radius:
+        raise bad_photograph(
+            photograph,
+            f"the sprocket must lie in the free circle of the marker sheet, {2.0 * sheet.free_radius:.0f} mm "
+            f"wide by the dots that are seen, but has {2.0 * wheel.tip_radius:.0f} mm over its tips: print "
+            "the sheet for a larger paper, or photograph the sprocket without it",
+        )
+
+
 def check_thickness(thickness: float, sheet: SeenSheet | None, photograph: str) -> None:
     """Raise for a thickness of the teeth [mm] without a sheet, or one that the camera could not look over."""
     if sheet is None:
@@ -195,7 +227,7 @@ def check_thickness(thickness: float, sheet: SeenSheet | None, photograph: str) 
 
 def height_warning(sheet: SeenSheet) -> str:
     """Return what is to be said of a camera whose height is not certain; empty where it is."""
-    if sheet.camera.height_error < _UNKNOWN_HEIGHT:
+    if sheet.height_known:
         return ""
     return (
         "the height of the camera is uncertain, as the picture states no focal length and is hardly tilted: "
