@@ -283,7 +283,10 @@ def new_file(path: Path) -> Iterator[IO[bytes]]:
 
 
 _OLD = 10.0
-"""Age of a file beside another [s] at which its writer holds its lock, or has been killed."""
+"""Age of a file beside another [s] at which its writer holds its lock, or has been killed.
+
+One from later than now was there before the clock was set back.
+"""
 
 
 def left_beside(path: Path) -> list[Path]:
@@ -295,7 +298,7 @@ def _clear_left(path: Path) -> None:
     """Remove what killed writers left beside a file."""
     for left in left_beside(path):
         with contextlib.suppress(OSError), left.open("rb") as file:
-            if time.time() - left.stat().st_mtime > _OLD and _lock(file):
+            if abs(time.time() - left.stat().st_mtime) > _OLD and _lock(file):
                 left.unlink()
 
 

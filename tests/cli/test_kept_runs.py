@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import threading
+import time
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -59,6 +60,25 @@ def test_the_next_command_runs_nothing_and_says_the_same(cli, kept, runs):
     assert runs == []
     assert cli("life", "drive.toml", "--json", "--fresh").out == first.out
     assert sorted(runs) == [17, 20]
+
+
+def test_a_clock_that_goes_back(cli, kept, runs, monkeypatch):
+    """Runs of later are believed, as their content is; but not if the program is of later too."""
+    first = cli("life", "drive.toml", "--json")
+    before = {path: path.read_bytes() for path in kept.glob("*.run")}
+    now = time.time
+    monkeypatch.setattr(kept_runs.time, "time", lambda: now() - 1e6)
+    runs.clear()
+    assert cli("life", "drive.toml", "--json").out == first.out
+    assert sorted(runs) == [17, 20]
+    runs.clear()
+    old = kept.parent / "drive.toml"
+    os.utime(old, (0.0, 0.0))
+    monkeypatch.setattr(kept_runs, "_sources", lambda: [old])
+    monkeypatch.setattr(kept_runs.time, "time", lambda: now() - 1.0)
+    assert cli("life", "drive.toml", "--json").out == first.out
+    assert runs == []
+    assert {path: path.read_bytes() for path in kept.glob("*.run")} == before
 
 
 def test_python_runs_what_it_is_asked_for(kept, runs):

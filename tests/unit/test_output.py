@@ -4,6 +4,7 @@ import os
 import stat
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -245,10 +246,13 @@ def test_folder_without_a_marker_is_not_replaced(tmp_path, name):
 
 
 def test_what_a_killed_writer_left_beside_a_file_goes(tmp_path):
-    left, young, another = (tmp_path / f".flank.csv.{end}" for end in ("ab12cd_9", "ab12cd_8", "bak"))
-    for path in (left, young, another):
+    """Also where the clock has been set back since."""
+    ends = ("ab12cd_9", "ab12cd_7", "ab12cd_8", "bak")
+    left, later, young, another = (tmp_path / f".flank.csv.{end}" for end in ends)
+    for path in (left, later, young, another):
         path.write_text("half of it")
     os.utime(left, (1e9, 1e9))
+    os.utime(later, (time.time() + 3600.0,) * 2)
     os.utime(another, (1e9, 1e9))
     write_file(tmp_path / "flank.csv", "all of it", force=True)
     assert {path.name for path in tmp_path.iterdir()} == {"flank.csv", young.name, another.name}

@@ -203,7 +203,8 @@ def _limit_size(folder: Path) -> None:
     """Remove what killed writers left, and the runs used longest ago until the others are small enough."""
     for path in folder.glob(f".*{_ENDING}.*"):
         with contextlib.suppress(OSError):
-            if time.time() - path.stat().st_mtime > _LEFT_FOR:
+            # One from later than now was there before the clock was set back.
+            if abs(time.time() - path.stat().st_mtime) > _LEFT_FOR:
                 path.unlink()
     files = [(status.st_mtime_ns, status.st_size, path) for path, status in kept_files(folder)]
     size = sum(bytes_ for _, bytes_, _ in files)
