@@ -258,18 +258,18 @@ PLATE, WIDTH = 11.8, 17.0
 def with_chain(sheet, tmp_path):
     """Function that photographs a chain of 13 links beside the wheel and measures some of them."""
 
-    def scan(elongation, links=10, first=1, bow=0.0, asked=None, noted=True, **others):
+    def scan(elongation, links=10, first=1, bow=0.0, asked=None, noted=True, width=WIDTH, off=0.0, **others):
         camera = over_sheet(Print.of(sheet, at=ORIGIN), turn=0.0, tilt=math.radians(3.0), **others)
         faces, pins = chain_beside(PITCH, PLATE, WIDTH, 13, (-99.0, -80.0), 0.5 * math.pi, elongation, bow)
         exif = focal_length(camera) if noted else Image.Exif()
         picture(OUTLINE, camera, beside=faces).save(tmp_path / "wheel.png", exif=exif)
         ends, _ = photographed(pins[[first, first + links]], RADIUS, camera, 0.95 * WIDTH)
-        ends = ends + np.array([[1.5, -2.0], [-1.0, 2.5]])
+        ends = ends + np.array([[1.5, -2.0], [-1.0, 2.5]]) + off
         return wearsim.scan(
             tmp_path / "wheel.png",
             chain="08B",
             chain_beside=(*ends.ravel(), asked or links),
-            chain_width=WIDTH,
+            chain_width=width,
         )
 
     return scan
@@ -294,6 +294,8 @@ def test_elongation_moves_with_the_chain_alone(with_chain):
     """What sheet and height leave uncertain is the same in all pictures of a camera."""
     off = [with_chain(one).chain_elongation - one for one in (0.0, 1.0, 2.0, 3.0)]
     assert np.ptp(off) < 0.12
+    for away in ([5.0, 6.0], [-6.0, 4.0], [[4.0, -6.0], [-4.0, 6.0]]):
+        assert with_chain(1.0, off=np.array(away)).chain_elongation - 1.0 == pytest.approx(off[1], abs=0.02)
     assert with_chain(1.0, links=4, first=3).chain_elongation - 1.0 == pytest.approx(off[1], abs=0.15)
 
 
@@ -310,6 +312,7 @@ def test_a_bent_chain_is_told(with_chain):
         ({"asked": 8}, r"there must be 8 links between .* but 10 of 12\.7 mm are seen"),
         ({"asked": 4}, "must be 4 links of 12.7 mm apart, but lie 1"),
         ({"asked": 9}, r"must be even, .* \(got 9\)"),
+        ({"width": 12.0}, "must be 14 to 23.2 mm wide over the ends of a pin, but 12 mm is given"),
     ],
 )
 def test_links_that_are_miscounted(with_chain, options, message):

@@ -264,7 +264,10 @@ def scan(
         check_ranges("scan", {"scale[4]": scale[4]}, {"scale[4]": ABOVE_0})
     if chain_beside is not None:
         check_series("scan", "chain_beside", chain_beside, Range(least=0.0), 5)
-        check_ranges("scan", {"chain_beside[4]": chain_beside[4]}, {"chain_beside[4]": _LINKS})
+        links = chain_beside[4]
+        check_ranges(
+            "scan", {"chain_beside[4]": int(links) if links % 1 == 0 else links}, {"chain_beside[4]": _LINKS}
+        )
     one = None if case is None else _of_one(loaded(case), sprocket)
     picture = photograph if isinstance(photograph, Photograph) else read_photograph(Path(photograph))
     sheet = find_sheet(picture, ruler)
@@ -272,8 +275,9 @@ def scan(
         check_thickness(thickness, sheet, picture.name)
     beside = None
     if chain_beside is not None and chain_width is not None:
-        asked = ChainBeside(chain_beside[:4], int(chain_beside[4]), chain_width)
-        beside = measure_chain(picture, sheet, _chain(one, chain).pitch, asked)
+        x_1, y_1, x_2, y_2, links = chain_beside
+        asked = ChainBeside((x_1, y_1, x_2, y_2), int(links), chain_width)
+        beside = measure_chain(picture, sheet, _chain(one, chain), asked)
     plain = picture if sheet is None else sheet.cleared(picture, None if beside is None else beside.outline)
     seen = find_silhouette(plain)
     if one is not None:

@@ -9,6 +9,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter, map_coordinates, spline_filter
 
+from wearsim.catalogue.catalogues import Chain
 from wearsim.geometry.profile_points import Vector
 from wearsim.scanning.photograph import Photograph, bad_photograph
 from wearsim.scanning.projection import Projection
@@ -39,6 +40,9 @@ _COARSE, _FINE = 24, 100
 
 _LEAST_ERROR = 0.05
 """Standard deviation of a pin along the chain that no scatter of pins makes smaller [px]."""
+
+_WIDTHS = (1.8, 3.0)
+"""Width over the pins of one strand over its inner width: 1.94 (12B) to 2.87 (05B) by ISO 606."""
 
 _WIDEST = 0.2
 """Largest width of a chain over the height of the camera."""
@@ -110,9 +114,9 @@ class _Plane:
 
 
 def measure_chain(
-    photograph: Photograph, sheet: SeenSheet | None, pitch: float, asked: ChainBeside
+    photograph: Photograph, sheet: SeenSheet | None, chain: Chain, asked: ChainBeside
 ) -> SeenChain:
-    """Return the length of a chain of a pitch [mm] that lies on its side, on the sheet or beside it.
+    """Return the length of a chain that lies on its side, on the sheet or beside it.
 
     The picture around every second pin is moved onto the mean of them all, so the pins may look like
     anything, as long as they look alike. The length is the sum of the distances between them.
@@ -148,12 +152,15 @@ def measure_chain(
             f"the chain must be narrower than {_WIDEST * height:.0f} mm below a camera {height:.0f} mm above "
             f"the sheet, but {asked.width:g} mm is given: correct its width",
         )
+    _check_width(photograph, chain, asked.width)
+    pitch = chain.pitch
     plane = _Plane(sheet, 1.0 - _TOP[0] * asked.width / height)
     ends = np.array(asked.ends, dtype=float).reshape(2, 2)
     first, last = plane.points(ends)
     outline = _outline(photograph, plane, first, last, pitch)
     _check_ends(photograph, plane, first, last, pitch, asked.links)
     light = _ChainLight(photograph, plane, first, last, pitch)
+    first, last = light.centred(first, last), light.centred(last, first)
     places = light.walked(first, last)
     found = _STEP * (len(places) - 1)
     if found != asked.links:
@@ -192,6 +199,18 @@ def _outline(photograph: Photograph, plane: _Plane, first: Vector, last: Vector,
     far = (end - start) / math.dist(start, end) * (photograph.width + photograph.height)
     left, right = left - start, right - start
     return np.array([start - far + left, start + far + left, start + far + right, start - far + right])
+
+
+def _check_width(photograph: Photograph, chain: Chain, width: float) -> None:
+    """Raise for a width that no chain of this inner width has over its pins."""
+    others = (chain.strands - 1) * chain.transverse_pitch
+    low, high = (round(part * chain.inner_width + others, 1) for part in _WIDTHS)
+    if not low <= width <= high:
+        raise bad_photograph(
+            photograph.name,
+            f"a chain whose inner width is {chain.inner_width:g} mm must be {low:g} to {high:g} mm wide over "
+            f"the ends of a pin, but {width:g} mm is given: measure it with a calliper, or correct the chain",
+        )
 
 
 def _check_ends(
@@ -266,6 +285,19 @@ class _ChainLight:
         self._fine = spline_filter(light)
         coarse = pitch / _COARSE
         self._smooth = spline_filter(gaussian_filter(light, 0.4 * coarse * self.scale))
+
+    def centred(self, place: Vector, towards: Vector) -> Vector:
+        """Return the middle of a pin near a place: turned by half a turn it looks the same."""
+        frame, step = _frame(towards - place), self._pitch / _COARSE
+        reach = round(_SEARCH * _COARSE)
+        inside = _disc(self._around(place, frame, self._smooth, step).shape)
+        wide = self._around(place, frame, self._smooth, step, reach)
+        windows = sliding_window_view(wide, inside.shape)[..., inside]
+        off = windows - windows.mean(axis=-1, keepdims=True)
+        spread = off.std(axis=-1)
+        alike = (off * off[..., ::-1]).mean(axis=-1) / np.maximum(spread, 0.2 * spread.max()) ** 2
+        across, along = np.unravel_index(int(alike.argmax()), alike.shape)
+        return place + step * np.array([along - reach, across - reach], dtype=float) @ frame
 
     def walked(self, first: Vector, last: Vector) -> Vector:
         """Return every second pin from one to the other, each where it looks like the first one."""
