@@ -12,6 +12,10 @@ from PIL import ExifTags, Image
 
 import wearsim
 from tests.photographs import Camera, Print, chain_beside, new_gap, photographed, picture, wheel, with_pocket
+from wearsim.catalogue.catalogues import Chain
+from wearsim.scanning.chain_beside import check_width
+from wearsim.scanning.new_wheel import chain_named
+from wearsim.scanning.photograph import Photograph
 
 PITCH, ROLLER, THICKNESS = 12.7, 8.51, 7.2
 TEETH, DEPTH = 15, 0.3
@@ -312,12 +316,38 @@ def test_a_bent_chain_is_told(with_chain):
         ({"asked": 8}, r"there must be 8 links between .* but 10 of 12\.7 mm are seen"),
         ({"asked": 4}, "must be 4 links of 12.7 mm apart, but lie 1"),
         ({"asked": 9}, r"must be even, .* \(got 9\)"),
-        ({"width": 12.0}, "must be 14 to 23.2 mm wide over the ends of a pin, but 12 mm is given"),
+        ({"width": 12.0}, "must be 14 to 25.6 mm wide over the ends of a pin, but 12 mm is given"),
     ],
 )
 def test_links_that_are_miscounted(with_chain, options, message):
     with pytest.raises(wearsim.CaseError, match=message):
         with_chain(1.0, **options)
+
+
+def test_widths_of_standard_chains_are_taken():
+    """Over the pins by ISO 606 and DIN 8187; of two strands whose distance is not known any."""
+    pixels = Photograph("wheel.png", np.zeros((2, 2), dtype=np.float32))
+    for name, width in (
+        ("05B", 8.6),
+        ("08B", 17.0),
+        ("12B", 22.7),
+        ("16B", 36.1),
+        ("081", 10.2),
+        ("08B-2", 31.0),
+    ):
+        check_width(pixels, chain_named(name), width)
+    own = Chain("", 12.7, 8.51, 7.75, strands=2)
+    check_width(pixels, own, 31.0)
+
+
+@pytest.mark.slow
+def test_a_chain_that_points_at_the_wheel_is_named(sheet, tmp_path):
+    camera = over_sheet(Print.of(sheet, at=ORIGIN), turn=0.0)
+    faces, pins = chain_beside(PITCH, PLATE, WIDTH, 6, (0.0, -113.0), 0.5 * math.pi, 1.0)
+    picture(OUTLINE, camera, beside=faces).save(tmp_path / "wheel.png", exif=focal_length(camera))
+    ends, _ = photographed(pins[[1, 5]], RADIUS, camera, 0.95 * WIDTH)
+    with pytest.raises(wearsim.CaseError, match="lay the chain so that its line passes beside the sprocket"):
+        wearsim.scan(tmp_path / "wheel.png", chain="08B", chain_beside=(*ends.ravel(), 4), chain_width=WIDTH)
 
 
 @pytest.mark.parametrize(

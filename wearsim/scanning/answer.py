@@ -15,7 +15,7 @@ from wearsim.readings.shared_reading import reading_toml
 from wearsim.report.answer_table import csv_of
 from wearsim.report.public_answer import DrawnAnswer
 from wearsim.runner.in_threads import Progress, silent
-from wearsim.scanning.chain_beside import ChainBeside, measure_chain
+from wearsim.scanning.chain_beside import ChainBeside, SeenChain, measure_chain
 from wearsim.scanning.known_scales import LookUp, by_bore, by_dots, by_points
 from wearsim.scanning.model import SURE, ScannedWheel, scan_photograph
 from wearsim.scanning.new_wheel import STANDARDS, NewWheel, chain_named, wheel_of_case, wheel_of_chain
@@ -279,7 +279,7 @@ def scan(
         asked = ChainBeside((x_1, y_1, x_2, y_2), int(links), chain_width)
         beside = measure_chain(picture, sheet, _chain(one, chain), asked)
     plain = picture if sheet is None else sheet.cleared(picture, None if beside is None else beside.outline)
-    seen = find_silhouette(plain)
+    seen = _silhouette(plain, beside)
     if one is not None:
         wheel = wheel_of_case(one)
     else:
@@ -295,6 +295,20 @@ def scan(
     if beside is not None:
         found = replace(found, chain=beside, warnings=(*found.warnings, *beside.warnings))
     return ScanResult(_with_hours(found, one, hours, progress), one)
+
+
+def _silhouette(picture: Photograph, beside: SeenChain | None) -> Silhouette:
+    """Return the outline of the wheel, and name the chain where it may be why there is none."""
+    try:
+        return find_silhouette(picture)
+    except CaseError as error:
+        if beside is None:
+            raise
+        hint = (
+            "; what lies in line with the chain is left out, up to the edges of the picture: lay the chain "
+            "so that its line passes beside the sprocket"
+        )
+        raise CaseError([replace(one, message=one.message + hint) for one in error.faults]) from None
 
 
 def _scale(

@@ -41,8 +41,8 @@ _COARSE, _FINE = 24, 100
 _LEAST_ERROR = 0.05
 """Standard deviation of a pin along the chain that no scatter of pins makes smaller [px]."""
 
-_WIDTHS = (1.8, 3.0)
-"""Width over the pins of one strand over its inner width: 1.94 (12B) to 2.87 (05B) by ISO 606."""
+_WIDTHS = (1.8, 3.3)
+"""Width over the pins of one strand over its inner width: 1.94 (12B) to 3.09 (081) by ISO 606."""
 
 _WIDEST = 0.2
 """Largest width of a chain over the height of the camera."""
@@ -152,13 +152,13 @@ def measure_chain(
             f"the chain must be narrower than {_WIDEST * height:.0f} mm below a camera {height:.0f} mm above "
             f"the sheet, but {asked.width:g} mm is given: correct its width",
         )
-    _check_width(photograph, chain, asked.width)
+    check_width(photograph, chain, asked.width)
     pitch = chain.pitch
     plane = _Plane(sheet, 1.0 - _TOP[0] * asked.width / height)
     ends = np.array(asked.ends, dtype=float).reshape(2, 2)
     first, last = plane.points(ends)
-    outline = _outline(photograph, plane, first, last, pitch)
     _check_ends(photograph, plane, first, last, pitch, asked.links)
+    outline = _outline(photograph, plane, first, last, pitch)
     light = _ChainLight(photograph, plane, first, last, pitch)
     first, last = light.centred(first, last), light.centred(last, first)
     places = light.walked(first, last)
@@ -170,7 +170,7 @@ def measure_chain(
             f"{pitch:g} mm are seen: give the middles of the pins, and count the links between them again",
         )
     places, alike = light.aligned(places)
-    if not alike > _ALIKE:
+    if not (alike > _ALIKE and math.dist(places[-1], last) < _SEARCH * pitch):
         raise bad_photograph(
             photograph.name,
             "every second pin of the chain must look alike, but one does not: lay the chain on its side, "
@@ -201,8 +201,10 @@ def _outline(photograph: Photograph, plane: _Plane, first: Vector, last: Vector,
     return np.array([start - far + left, start + far + left, start + far + right, start - far + right])
 
 
-def _check_width(photograph: Photograph, chain: Chain, width: float) -> None:
+def check_width(photograph: Photograph, chain: Chain, width: float) -> None:
     """Raise for a width that no chain of this inner width has over its pins."""
+    if chain.strands > 1 and not chain.transverse_pitch:
+        return
     others = (chain.strands - 1) * chain.transverse_pitch
     low, high = (round(part * chain.inner_width + others, 1) for part in _WIDTHS)
     if not low <= width <= high:
