@@ -115,14 +115,13 @@ def measured(
     """Return what is said of a picture."""
     degrees = math.degrees(camera.tilt)
     beside, width, elongation = beside_it
+    without = ""
     try:
-        wearsim.scan(path, chain="08B", chain_beside=beside, chain_width=width)
-        without = ""
-    except (wearsim.CaseError, wearsim.GeometryError) as error:
-        without = str(error).partition(": ")[2].partition(",")[0]
-    asked = {} if without else {"chain_beside": beside, "chain_width": width}
-    try:
-        answer = wearsim.scan(path, chain="08B", **asked)
+        try:
+            answer = wearsim.scan(path, chain="08B", chain_beside=beside, chain_width=width)
+        except (wearsim.CaseError, wearsim.GeometryError) as error:
+            without = str(error).partition(": ")[2].partition(",")[0]
+            answer = wearsim.scan(path, chain="08B")
     except wearsim.CaseError as error:
         return Trial(noted, degrees, str(error).partition(": ")[2].partition(",")[0])
     place, sheet = answer.found.depths.place, answer.found.sheet

@@ -19,8 +19,8 @@ from wearsim.files import given_bytes
 from wearsim.input.column_files import with_column_files
 from wearsim.input.faults import Faults
 from wearsim.input.giving_way import remove_alternatives
-from wearsim.input.named_files import FILE_KEYS, OUTSIDE, is_outside
-from wearsim.input.table import CalculationTables, Table, without_numbers
+from wearsim.input.named_files import file_paths, outside_fault
+from wearsim.input.table import CalculationTables, Table
 from wearsim.input.units import plain_tables
 
 
@@ -81,10 +81,11 @@ def read_document(source: CaseSource, overrides: Sequence[str]) -> Document:
 
 def check_inside(given: GivenInput, faults: Faults, changed: Sequence[str] = ()) -> None:
     """Raise where a file names files that lie out of its folder, before any of them is read."""
-    for key, name in leaves(given.tables):
-        names_file = tuple(without_numbers(key).split(".")) in FILE_KEYS
-        if names_file and key not in changed and isinstance(name, str) and is_outside(given.folder, name):
-            faults.add(key, f"{OUTSIDE} (got {name!r:.60})")
+    values = dict(leaves(given.tables))
+    for key in map(".".join, file_paths(given.tables)):
+        name = values.get(key)
+        if key not in changed and isinstance(name, str) and (fault := outside_fault(given.folder, name)):
+            faults.add(key, fault)
     faults.check()
 
 

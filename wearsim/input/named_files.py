@@ -39,12 +39,6 @@ def _has(table: object, key: str) -> bool:
     return isinstance(table, Mapping) and key in table
 
 
-OUTSIDE = (
-    "must name a file in the folder of the input or below it: copy it there, or if you trust the input give "
-    "--allow-outside, in Python `with wearsim.allow_outside():`"
-)
-"""What is said of a file that an input must not name, before what it names."""
-
 _allowed: list[bool] = [False]
 """Whether files may lie anywhere: of the whole process, as the page reads inputs in several threads."""
 
@@ -60,10 +54,12 @@ def allow_outside() -> Iterator[None]:
     Examples
     --------
     >>> with allow_outside():
-    ...     is_outside(Path("drives"), "/measured/flank.csv")
-    False
-    >>> is_outside(Path("drives"), "/measured/flank.csv"), is_outside(Path("drives"), "flank.csv")
-    (True, False)
+    ...     outside_fault(Path("drives"), "/measured/flank.csv")
+    ''
+    >>> outside_fault(Path("drives"), "/measured/flank.csv").partition(":")[0]
+    'must name a file in the folder of the input or below it'
+    >>> outside_fault(Path("drives"), "flank.csv")
+    ''
     """
     before, _allowed[0] = _allowed[0], True
     try:
@@ -72,9 +68,14 @@ def allow_outside() -> Iterator[None]:
         _allowed[0] = before
 
 
-def is_outside(folder: Path, name: str) -> bool:
-    """Tell whether a file lies out of the folder of the input that names it, and must not."""
+def outside_fault(folder: Path, name: str) -> str:
+    """Return what is wrong with a file that an input names out of its folder; empty where nothing is."""
     if _allowed[0] or "\0" in name:
-        return False
+        return ""
     inside = Path(os.path.realpath(folder))
-    return not Path(os.path.realpath(folder / name)).is_relative_to(inside)
+    if Path(os.path.realpath(folder / name)).is_relative_to(inside):
+        return ""
+    return (
+        "must name a file in the folder of the input or below it: copy it there, or if you trust the input "
+        f"give --allow-outside, in Python `with wearsim.allow_outside():` (got {name!r:.60})"
+    )

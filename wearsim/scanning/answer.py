@@ -18,7 +18,14 @@ from wearsim.runner.in_threads import Progress, silent
 from wearsim.scanning.chain_beside import ChainBeside, SeenChain, measure_chain
 from wearsim.scanning.known_scales import LookUp, by_bore, by_dots, by_points
 from wearsim.scanning.model import SURE, ScannedWheel, scan_photograph
-from wearsim.scanning.new_wheel import STANDARDS, NewWheel, chain_named, wheel_of_case, wheel_of_chain
+from wearsim.scanning.new_wheel import (
+    STANDARDS,
+    NewWheel,
+    chain_named,
+    chain_of_case,
+    wheel_of_case,
+    wheel_of_chain,
+)
 from wearsim.scanning.photograph import Photograph, read_photograph
 from wearsim.scanning.sheet import (
     chain_csv,
@@ -257,27 +264,18 @@ def scan(
     if (chain_beside is None) != (chain_width is None):
         raise TypeError("scan: chain_beside and chain_width must be given together")
     numbers = {"bore": bore, "dpi": dpi, "ruler": ruler, "thickness": thickness, "hours": hours}
-    numbers["chain_width"] = chain_width
-    check_ranges("scan", {"teeth": teeth, "profile": profile, **numbers}, _ALLOWED)
+    given = {"teeth": teeth, "profile": profile, "chain_width": chain_width, **numbers}
+    check_ranges("scan", given, _ALLOWED)
     if scale is not None:
         check_series("scan", "scale", scale, Range(least=0.0), 5)
         check_ranges("scan", {"scale[4]": scale[4]}, {"scale[4]": ABOVE_0})
-    if chain_beside is not None:
-        check_series("scan", "chain_beside", chain_beside, Range(least=0.0), 5)
-        links = chain_beside[4]
-        check_ranges(
-            "scan", {"chain_beside[4]": int(links) if links % 1 == 0 else links}, {"chain_beside[4]": _LINKS}
-        )
+    asked = _asked(chain_beside, chain_width)
     one = None if case is None else _of_one(loaded(case), sprocket)
     picture = photograph if isinstance(photograph, Photograph) else read_photograph(Path(photograph))
     sheet = find_sheet(picture, ruler)
     if thickness is not None:
         check_thickness(thickness, sheet, picture.name)
-    beside = None
-    if chain_beside is not None and chain_width is not None:
-        x_1, y_1, x_2, y_2, links = chain_beside
-        asked = ChainBeside((x_1, y_1, x_2, y_2), int(links), chain_width)
-        beside = measure_chain(picture, sheet, _chain(one, chain), asked)
+    beside = None if asked is None else measure_chain(picture, sheet, _chain(one, chain), asked)
     plain = picture if sheet is None else sheet.cleared(picture, None if beside is None else beside.outline)
     seen = _silhouette(plain, beside)
     if one is not None:
@@ -295,6 +293,17 @@ def scan(
     if beside is not None:
         found = replace(found, chain=beside, warnings=(*found.warnings, *beside.warnings))
     return ScanResult(_with_hours(found, one, hours, progress), one)
+
+
+def _asked(beside: tuple[float, float, float, float, int] | None, width: float | None) -> ChainBeside | None:
+    """Return which chain is to be measured, if any."""
+    if beside is None or width is None:
+        return None
+    check_series("scan", "chain_beside", beside, Range(least=0.0), 5)
+    x_1, y_1, x_2, y_2, links = beside
+    whole = int(links) if links % 1 == 0 else links
+    check_ranges("scan", {"chain_beside[4]": whole}, {"chain_beside[4]": _LINKS})
+    return ChainBeside((x_1, y_1, x_2, y_2), whole, width)
 
 
 def _silhouette(picture: Photograph, beside: SeenChain | None) -> Silhouette:
@@ -331,7 +340,7 @@ def _chain(case: Case | None, designation: str | None) -> Chain:
     """Return the chain of a case, or that of a name."""
     if designation is not None:
         return chain_named(designation)
-    found: Chain | None = None if case is None else getattr(case.drive, "chain", None)
+    found = None if case is None else chain_of_case(case)
     if found is None:
         text = "the case must have a chain if the length of one is to be measured, but has none"
         raise CaseError([Fault(text, "chain", "" if case is None else case.name)])

@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -37,6 +38,9 @@ _ALIKE = 0.6
 
 _COARSE, _FINE = 24, 100
 """Most samples of a pitch in the search for pins, and in their alignment."""
+
+_REACH = round(_SEARCH * _COARSE)
+"""The same of the search, in its samples."""
 
 _LEAST_ERROR = 0.05
 """Standard deviation of a pin along the chain that no scatter of pins makes smaller [px]."""
@@ -73,7 +77,7 @@ class SeenChain:
     length_error: float  # standard error of the length [mm]
     pins: Vector  # every second one, in the picture [px], shape (n, 2)
     outline: Vector  # of what the chain may cover, to the edges of the picture [px], shape (4, 2)
-    warnings: tuple[str, ...]
+    bend: float  # largest angle between two links and the next two [rad]
 
     @property
     def assumption(self) -> str:
@@ -92,6 +96,21 @@ class SeenChain:
     def elongation_error(self) -> float:
         """Standard error of the elongation [%]."""
         return 100.0 * self.length_error / self.new_length
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is doubtful about it."""
+        return tuple(self._doubts())
+
+    def _doubts(self) -> Iterator[str]:
+        if self.bend > _BENT:
+            yield "the chain is not straight, so its links may not be pulled apart: lay it along a ruler"
+        low, high = _USUAL
+        if not low - 2.0 * self.elongation_error < self.elongation < high:
+            yield (
+                f"the chain is {self.elongation:+.1f} % longer than new, which no chain in service is: check "
+                "its designation, its width over the pins, and the ruler of the sheet"
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,8 +206,11 @@ def measure_chain(
         _TOP[1] * asked.width / height,
         math.sqrt(2.0) * max(scatter, _LEAST_ERROR / light.scale) / length,
     )
-    seen = SeenChain(asked.links, length, new_length, error, pins, outline, ())
-    return replace(seen, warnings=tuple(_warnings(seen, places)))
+    ways = np.diff(places, axis=0)
+    turns = np.abs(np.diff(np.unwrap(np.arctan2(ways[:, 1], ways[:, 0]))))
+    return SeenChain(
+        asked.links, length, new_length, error, pins, outline, bend=float(turns.max(initial=0.0))
+    )
 
 
 def _outline(photograph: Photograph, plane: _Plane, first: Vector, last: Vector, pitch: float) -> Vector:
@@ -241,25 +263,11 @@ def _length(places: Vector) -> float:
     return float(np.hypot(*np.diff(places, axis=0).T).sum())
 
 
-def _warnings(seen: SeenChain, places: Vector) -> Iterator[str]:
-    ways = np.diff(places, axis=0)
-    turns = np.abs(np.diff(np.unwrap(np.arctan2(ways[:, 1], ways[:, 0]))))
-    if turns.size and turns.max() > _BENT:
-        yield "the chain is not straight, so its links may not be pulled apart: lay it along a ruler"
-    low, high = _USUAL
-    if not low - 2.0 * seen.elongation_error < seen.elongation < high:
-        yield (
-            f"the chain is {seen.elongation:+.1f} % longer than new, which no chain in service is: check its "
-            "designation, its width over the pins, and the ruler of the sheet"
-        )
-
-
 @dataclass(frozen=True, eq=False)
 class _Pattern:
     """What a pin looks like."""
 
     mean: Vector  # light around it, rows across the chain and columns along it
-    inside: Mask  # which of it is looked at
     solution: Vector  # what turns a difference of light into millimetres along and across
 
 
@@ -274,7 +282,7 @@ class _ChainLight:
         near = plane.seen(middle + np.array([[0.0, 0.0], [1.0, 0.0]]))
         self.scale = math.dist(*near)
         """Pixels of a millimetre."""
-        self._step = max(1.0 / self.scale, pitch / _FINE)
+        self._step, self._coarse = max(1.0 / self.scale, pitch / _FINE), pitch / _COARSE
         reach = 1.5 * pitch * self.scale
         corners = plane.seen(np.array([first, last]))
         size = np.array([photograph.width, photograph.height])
@@ -285,21 +293,16 @@ class _ChainLight:
         self._corner = np.array([left, top])
         light = photograph.light[top:bottom, left:right].astype(float)
         self._fine = spline_filter(light)
-        coarse = pitch / _COARSE
-        self._smooth = spline_filter(gaussian_filter(light, 0.4 * coarse * self.scale))
+        self._smooth = spline_filter(gaussian_filter(light, 0.4 * self._coarse * self.scale))
 
     def centred(self, place: Vector, towards: Vector) -> Vector:
         """Return the middle of a pin near a place: turned by half a turn it looks the same."""
-        frame, step = _frame(towards - place), self._pitch / _COARSE
-        reach = round(_SEARCH * _COARSE)
-        inside = _disc(self._around(place, frame, self._smooth, step).shape)
-        wide = self._around(place, frame, self._smooth, step, reach)
-        windows = sliding_window_view(wide, inside.shape)[..., inside]
+        frame = _frame(towards - place)
+        windows = self._windows(place, frame)
         off = windows - windows.mean(axis=-1, keepdims=True)
         spread = off.std(axis=-1)
         alike = (off * off[..., ::-1]).mean(axis=-1) / np.maximum(spread, 0.2 * spread.max()) ** 2
-        across, along = np.unravel_index(int(alike.argmax()), alike.shape)
-        return place + step * np.array([along - reach, across - reach], dtype=float) @ frame
+        return place + self._way_to(alike) @ frame
 
     def walked(self, first: Vector, last: Vector) -> Vector:
         """Return every second pin from one to the other, each where it looks like the first one."""
@@ -318,16 +321,21 @@ class _ChainLight:
 
     def _off(self, known: Vector, expected: Vector, frame: Vector) -> Vector:
         """Return how far along and across from a place it looks most like around a known one [mm]."""
-        step = self._pitch / _COARSE
-        reach = round(_SEARCH * _COARSE)
-        pattern = _normed(self._around(known, frame, self._smooth, step))
-        inside = _disc(pattern.shape)
-        wide = self._around(expected, frame, self._smooth, step, reach)
-        windows = sliding_window_view(wide, pattern.shape)[..., inside]
+        pattern = _normed(self._around(known, frame, self._smooth, self._coarse))
+        windows = self._windows(expected, frame)
         spread = np.maximum(windows.std(axis=-1), 1e-12)
-        alike = (windows * pattern[inside]).mean(axis=-1) / spread
+        return self._way_to((windows * pattern[_disc(len(pattern))]).mean(axis=-1) / spread)
+
+    def _windows(self, place: Vector, frame: Vector) -> Vector:
+        """Return the light around all places near one, by their way across the chain and along it."""
+        inside = _disc(2 * self._count(self._coarse) + 1)
+        wide = self._around(place, frame, self._smooth, self._coarse, _REACH)
+        return np.asarray(sliding_window_view(wide, inside.shape)[..., inside])
+
+    def _way_to(self, alike: Vector) -> Vector:
+        """Return the way along and across to what of the windows is most alike [mm]."""
         across, along = np.unravel_index(int(alike.argmax()), alike.shape)
-        return step * np.array([along - reach, across - reach], dtype=float)
+        return self._coarse * np.array([along - _REACH, across - _REACH], dtype=float)
 
     def aligned(self, places: Vector) -> tuple[Vector, float]:
         """Return pins moved onto the mean of them all, and the least correlation with it."""
@@ -335,24 +343,25 @@ class _ChainLight:
             frames = [_frame(way) for way in np.asarray(np.gradient(places, axis=0))]
             pattern = self._pattern(places, frames)
             places = np.array([self._moved(*at, pattern) for at in zip(places, frames, strict=True)])
-        taken = [self._fine_around(*at)[pattern.inside] for at in zip(places, frames, strict=True)]
-        mean = pattern.mean[pattern.inside]
+        inside = _disc(len(pattern.mean))
+        taken = [self._fine_around(*at)[inside] for at in zip(places, frames, strict=True)]
+        mean = pattern.mean[inside]
         return places, min(float((mean * one).mean() / mean.std()) for one in taken)
 
     def _pattern(self, places: Iterable[Vector], frames: Iterable[Vector]) -> _Pattern:
         """Return what some pins look like in the mean."""
         mean = np.mean([self._fine_around(*at) for at in zip(places, frames, strict=True)], axis=0)
-        inside = _disc(mean.shape)
+        inside = _disc(len(mean))
         slopes = [np.gradient(mean, self._step, axis=axis)[inside] for axis in (1, 0)]
         rows = np.column_stack([*slopes, np.ones(slopes[0].size), mean[inside]])
-        return _Pattern(mean, inside, np.linalg.pinv(rows)[:2])
+        return _Pattern(mean, np.linalg.pinv(rows)[:2])
 
     def _moved(self, place: Vector, frame: Vector, pattern: _Pattern) -> Vector:
         """Return the place nearby that looks like a pattern, but for its level and contrast."""
-        farthest = 0.1 * self._pitch
+        farthest, inside = 0.1 * self._pitch, _disc(len(pattern.mean))
         for _ in range(15):
             # What is taken too far along shows what the pattern shows there.
-            off = pattern.solution @ (self._fine_around(place, frame) - pattern.mean)[pattern.inside]
+            off = pattern.solution @ (self._fine_around(place, frame) - pattern.mean)[inside]
             place = place - np.clip(off, -farthest, farthest) @ frame
             if math.hypot(*off) < 1e-3 / self.scale:
                 break
@@ -361,9 +370,13 @@ class _ChainLight:
     def _fine_around(self, place: Vector, frame: Vector) -> Vector:
         return _normed(self._around(place, frame, self._fine, self._step))
 
+    def _count(self, step: float) -> int:
+        """Return the samples from a pin to the end of what is looked at."""
+        return round(_AROUND * self._pitch / step)
+
     def _around(self, place: Vector, frame: Vector, spline: Vector, step: float, more: int = 0) -> Vector:
         """Return the light around a place, rows across the chain and columns along it."""
-        count = round(_AROUND * self._pitch / step) + more
+        count = self._count(step) + more
         way = step * np.arange(-count, count + 1)
         points = place + np.stack(np.meshgrid(way, way), axis=-1) @ frame
         x, y = np.moveaxis(self._plane.seen(points) - self._corner, -1, 0)
@@ -376,13 +389,14 @@ def _frame(way: Vector) -> Vector:
     return np.array([[x, y], [-y, x]])
 
 
-def _disc(shape: tuple[int, ...]) -> Mask:
-    """Return what of a square lies in the circle in it."""
-    way = np.linspace(-1.0, 1.0, shape[0])
+@cache
+def _disc(size: int) -> Mask:
+    """Return what of a square of so many samples lies in the circle in it."""
+    way = np.linspace(-1.0, 1.0, size)
     return np.asarray(np.hypot(way[:, None], way) <= 1.0)
 
 
 def _normed(light: Vector) -> Vector:
     """Return light around a pin about its mean, over its standard deviation."""
-    inside = light[_disc(light.shape)]
+    inside = light[_disc(len(light))]
     return np.asarray((light - inside.mean()) / max(float(inside.std()), 1e-12))

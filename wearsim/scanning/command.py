@@ -27,19 +27,13 @@ _BESIDE_SHEET = ("sheet", "paper", "force", "quiet", "debug")
 _POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
 
-class _ScalePoints(click.ParamType):  # type: ignore[type-arg]  # generic in newer click only
-    """Two points of a picture and how far they are apart."""
+class _FiveNumbers(click.ParamType):  # type: ignore[type-arg]  # generic in newer click only
+    """Two points of a picture and a number."""
 
-    name, last = "points", "mm"
+    last = ""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the five numbers."""
-        numbers = self._numbers(value, param, ctx)
-        if numbers[4] <= 0.0:
-            self.fail(f"the distance must be above 0 mm, is {numbers[4]:g}", param, ctx)
-        return numbers
-
-    def _numbers(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         try:
             numbers = tuple(float(part) for part in str(value).split(","))
         except ValueError:
@@ -51,14 +45,27 @@ class _ScalePoints(click.ParamType):  # type: ignore[type-arg]  # generic in new
         return numbers
 
 
-class _ChainPins(_ScalePoints):
+class _ScalePoints(_FiveNumbers):
+    """Two points of a picture and how far they are apart."""
+
+    name, last = "points", "mm"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the five numbers."""
+        numbers = super().convert(value, param, ctx)
+        if numbers[4] <= 0.0:
+            self.fail(f"the distance must be above 0 mm, is {numbers[4]:g}", param, ctx)
+        return numbers
+
+
+class _ChainPins(_FiveNumbers):
     """Two pins of a chain in a picture, and the number of links between them."""
 
     name, last = "pins", "links"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return four numbers and a whole one."""
-        numbers = self._numbers(value, param, ctx)
+        numbers = super().convert(value, param, ctx)
         if not (numbers[4] % 2.0 == 0.0 and 2.0 <= numbers[4] <= 200.0):
             self.fail(f"the links must be an even number from 2 to 200, are {numbers[4]:g}", param, ctx)
         return (*numbers[:4], int(numbers[4]))

@@ -32,7 +32,7 @@ class NewWheel:
     gap: Vector  # points of a gap about +y, from its right tip to its left one [mm], shape (n, 2)
     words: str  # which form it is
     thickness: float  # of the teeth [mm]
-    chain: Chain | None = None  # that it is made for; None where none is known
+    roller_diameter: float | None = None  # of the chain [mm]; None where no chain is known
     per_case: bool = False  # whether the number of teeth was said, not counted
 
     @property
@@ -113,8 +113,15 @@ def wheel_of_case(case: "Case") -> NewWheel:
     points = np.concatenate(parts)
     apart = np.concatenate([[True], np.hypot(*np.diff(points, axis=0).T) > 1e-9])
     pitch = 2.0 * shape.pitch_radius * math.sin(math.pi / len(shape.new))
-    words, chain = f"the sprocket of {case.title}", getattr(case.drive, "chain", None)
-    return NewWheel(len(shape.new), pitch, points[apart], words, shape.width, chain, per_case=True)
+    words, chain = f"the sprocket of {case.title}", chain_of_case(case)
+    roller = None if chain is None else float(chain.roller_diameter)
+    return NewWheel(len(shape.new), pitch, points[apart], words, shape.width, roller, per_case=True)
+
+
+def chain_of_case(case: "Case") -> Chain | None:
+    """Return the chain of a case, None where it has none."""
+    found: Chain | None = getattr(case.drive, "chain", None)
+    return found
 
 
 def chain_named(designation: str) -> Chain:
@@ -138,7 +145,7 @@ def wheel_of_chain(designation: str, teeth: int, profile: str | None) -> NewWhee
     gap = np.column_stack([outline.x, outline.y])
     words = f"{form} for {chain.designation}, {teeth} teeth"
     thickness = (chain.strands - 1) * chain.transverse_pitch + chain.face_width / chain.strands
-    return NewWheel(teeth, chain.pitch, gap, words, thickness, chain)
+    return NewWheel(teeth, chain.pitch, gap, words, thickness, chain.roller_diameter)
 
 
 def around(points: Vector, teeth: int) -> Vector:

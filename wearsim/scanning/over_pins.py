@@ -27,7 +27,7 @@ class OverPins:
 def over_pins(depths: FlankDepths) -> OverPins | None:
     """Return what pins would read in the mean gap; None where no roller belongs to the wheel."""
     wheel = depths.place.wheel
-    pin = None if wheel.chain is None else float(wheel.chain.roller_diameter)
+    pin = wheel.roller_diameter
     if pin is None:
         return None
     new, found = (_size(gap, pin, wheel.teeth) for gap in (wheel.gap, depths.worn_gap))

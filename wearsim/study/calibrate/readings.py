@@ -15,7 +15,7 @@ from wearsim.extras import library
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.csv_tables import read_columns
 from wearsim.input.faults import Faults
-from wearsim.input.named_files import OUTSIDE, is_outside
+from wearsim.input.named_files import outside_fault
 from wearsim.readings.chain_lengths import new_length
 from wearsim.readings.chain_readings import ELONGATION, GAUGE, LENGTH, chain_cells, elongation_over, odd_error
 from wearsim.readings.dated_rows import (
@@ -228,8 +228,8 @@ def _points(name: str, row: int, path: Path, faults: list[Fault]) -> tuple[Vecto
     nothing = np.empty(0), np.empty(0)
     if not name:
         return nothing
-    if is_outside(path.parent, name):
-        faults.append(Fault(f"{OUTSIDE} (got {name!r:.60})", "points_file", str(path), row))
+    if fault := outside_fault(path.parent, name):
+        faults.append(Fault(fault, "points_file", str(path), row))
         return nothing
     found = Faults(str(path), "", ())
     columns = read_columns(path.parent / name, ("x_mm", "y_mm"), (), "", found)
