@@ -49,6 +49,8 @@ def convert(text: str, unit: str) -> float:
     20.0
     >>> convert("3/4 inch", "mm")
     19.05
+    >>> convert("897.5999999999999 N", "N")
+    897.5999999999999
     """
     if not text.strip(" +-.eE0123456789"):
         raise ValueError(f"give a number without quotes, or with a unit such as '1 {unit}'")
@@ -75,6 +77,8 @@ def _converted(number: float, given: str, unit: str) -> float:
     # pint takes 1/min and hertz for rad/min and rad/s.
     if unit == "rpm" and not any(angle in str(units) for angle in _ANGLES):
         raise ValueError(f"write a speed in rpm or rad/s, {given!r} may mean either")
+    if units == _registry().parse_units(unit):
+        return number
     # Fifteen digits, so that "0.0254 m" and 25.4 are the same number.
     return float(f"{converted:.15g}")
 
