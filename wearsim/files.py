@@ -251,16 +251,21 @@ def file_names(cases: Sequence[str]) -> list[str]:
     return found
 
 
-def write_file(path: Path, content: str | bytes, force: bool) -> None:
+Content = str | bytes | Iterable[str]
+"""Of a file; texts in parts are written as they come."""
+
+
+def write_file(path: Path, content: Content, force: bool) -> None:
     """Write a file beside its place and rename it."""
     check_free(path, force)
     if path.exists() and not path.is_file():
         raise OutputError(f"{path}: must be a file, but is none: choose another place, or -")
-    data = content.encode("utf-8") if isinstance(content, str) else content
+    parts = [content] if isinstance(content, str | bytes) else content
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with new_file(path) as file:
-            file.write(data)
+            for part in parts:
+                file.write(part.encode("utf-8") if isinstance(part, str) else part)
     except OSError as error:
         raise OutputError(f"{path}: must be writable: {error.strerror or error}") from None
 

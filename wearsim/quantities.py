@@ -91,6 +91,20 @@ def grouped(value: float, digits: int = 4) -> str:
     return f"{rounded:.{digits}g}"
 
 
+def time_in_words(seconds: float) -> str:
+    """Return a time as people say it, of at least a second.
+
+    Examples
+    --------
+    >>> time_in_words(0.13), time_in_words(8.24), time_in_words(300.0), time_in_words(7.2e4)
+    ('1 s', '8 s', '5 min', '20 h')
+    """
+    if seconds < 99.0:
+        return f"{max(1.0, seconds):.0f} s"
+    minutes = seconds / 60.0
+    return f"{minutes:.2g} min" if minutes < 99.0 else f"{minutes / 60.0:.0f} h"
+
+
 def either(words: Iterable[str]) -> str:
     """Return words of which one is meant as one reads them aloud.
 

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -144,6 +145,14 @@ def test_plan_without_a_run(cli, sweep, tmp_path):
     assert "cases        6, of which 6 are to be run" in done.out
     assert " s in one thread, from 4 cases" in done.out
     assert "files" not in done.out
+
+
+def test_many_cases_say_their_time_before_they_begin(cli, sweep, monkeypatch):
+    assert "are to be run" not in cli("sweep", sweep(GRID)).err
+    monkeypatch.setattr("wearsim.command.study_run._LARGE", 5)
+    assert re.search(
+        r"^6 cases are to be run, about \d+ s in one thread$", cli("sweep", sweep(GRID)).err, re.M
+    )
 
 
 @pytest.mark.wide

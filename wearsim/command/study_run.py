@@ -10,6 +10,7 @@ import click
 
 from wearsim.command.options import SOME_FAILED, warn
 from wearsim.command.study import StudyOptions
+from wearsim.quantities import time_in_words
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,6 +36,8 @@ def run(
         _show_plan(design, options)
         return None
     store = _store(design, options, identity)
+    if len(design.rows) > _LARGE:
+        _say_time(design, store)
     with _interrupted(options), _counting(text) as count:
         return run_study(design, workers, store, count)
 
@@ -94,19 +97,35 @@ def exit_code(table: "pd.DataFrame") -> int:
     return SOME_FAILED
 
 
-def _show_plan(design: "Design", options: StudyOptions) -> None:
+_LARGE = 10_000
+"""Cases of a study that says how long it takes before it begins."""
+
+
+def _say_time(design: "Design", store: "Store | None") -> None:
+    waiting, _ = _to_run(design, store)
+    seconds, _ = timed(design)
+    warn(f"{waiting} cases are to be run, about {time_in_words(seconds * waiting)} in one thread")
+
+
+def _to_run(design: "Design", store: "Store | None") -> tuple[int, int]:
+    """Return how many cases are not finished, and the number of all shards."""
     from wearsim.runner.shard import shards
-    from wearsim.runner.store import Store
 
     waiting, shard_count = 0, 0
-    store = None if options.out is None else Store(options.out)
     for shard in shards(design):
         shard_count += 1
         if store is None or not store.path(shard).exists():
             waiting += shard.count
+    return waiting, shard_count
+
+
+def _show_plan(design: "Design", options: StudyOptions) -> None:
+    from wearsim.runner.store import Store
+
+    waiting, shard_count = _to_run(design, None if options.out is None else Store(options.out))
     seconds, count = timed(design)
     click.echo(f"cases        {len(design.rows)}, of which {waiting} are to be run")
-    click.echo(f"time         about {seconds * waiting:.3g} s in one thread, from {count} cases")
+    click.echo(f"time         about {time_in_words(seconds * waiting)} in one thread, from {count} cases")
     if options.out is not None:
         click.echo(f"files        {shard_count} in {options.out / 'shards'}, and tables beside it")
 

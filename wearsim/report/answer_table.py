@@ -1,7 +1,7 @@
 """A table said once: its columns by their keys in JSON, CSV and pandas, below their heads on the screen."""
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -112,11 +112,20 @@ class AnswerTable(Generic[Row]):
 
     def markdown(self) -> str:
         """Return head and rows as Markdown."""
-        head, *rows = (
-            "| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |"
-            for row in (self.head, *self.cells)
-        )
-        return "\n".join([head, "|" + "---|" * len(self.head), *rows])
+        return "\n".join(markdown_lines(self.columns, self.rows))
+
+
+def markdown_lines(columns: Sequence[Column[Row]], rows: Iterable[Row]) -> Iterator[str]:
+    """Give head and rows of a table as Markdown, line by line."""
+    table = AnswerTable(columns, ())
+    yield _markdown(table.head)
+    yield "|" + "---|" * len(table.head)
+    for row in rows:
+        yield _markdown(one.text(row) for one in table.shown)
+
+
+def _markdown(cells: Iterable[str]) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 
 
 def life_columns(
@@ -145,12 +154,32 @@ def in_currency(head: str, currency: str | None) -> str:
 
 def csv_of(frame: "pd.DataFrame") -> str:
     """Return a table of pandas as the content of a file, with no text that a spreadsheet would calculate."""
+    return "".join(csv_parts(frame))
+
+
+def csv_parts(frame: "pd.DataFrame") -> Iterator[str]:
+    """Give the content of that file in parts."""
     from pandas.api.types import is_numeric_dtype
 
-    texts = {
-        str(name): column.map(_no_formula) for name, column in frame.items() if not is_numeric_dtype(column)
-    }
-    return frame.assign(**texts).to_csv(index=False, lineterminator="\n")
+    words = [str(name) for name, column in frame.items() if not is_numeric_dtype(column)]
+    for number, part in enumerate(_parts(frame)):
+        texts = {name: part[name].map(_no_formula) for name in words}
+        yield part.assign(**texts).to_csv(index=False, header=number == 0, lineterminator="\n")
+
+
+_PART = 10_000
+"""Rows of a table that are made into text at a time: a million at once take gigabytes."""
+
+
+def _parts(frame: "pd.DataFrame") -> "Iterator[pd.DataFrame]":
+    for first in range(0, max(1, len(frame)), _PART):
+        yield frame.iloc[first : first + _PART]
+
+
+def frame_rows(frame: "pd.DataFrame") -> Iterator[dict[Any, Any]]:
+    """Give the rows of a table of pandas, each by the names of its columns."""
+    for part in _parts(frame):
+        yield from part.to_dict("records")
 
 
 def _no_formula(cell: Any) -> Any:
@@ -166,7 +195,7 @@ def _no_formula(cell: Any) -> Any:
 
 def records_of(frame: "pd.DataFrame") -> list[dict[str, Any]]:
     """Return the rows of a table of pandas as JSON has them."""
-    return [{str(name): plain(value) for name, value in row.items()} for row in frame.to_dict("records")]
+    return [{str(name): plain(value) for name, value in row.items()} for row in frame_rows(frame)]
 
 
 def plain(value: Any) -> Any:

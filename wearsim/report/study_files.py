@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from wearsim.errors import OutputError
-from wearsim.files import mark, write_file, written
+from wearsim.files import Content, mark, write_file, written
 from wearsim.report.text_lines import literal
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ _LETTER = 0.085
 """Width of a letter of the title [inch]."""
 
 
-def save_files(folder: Path, files: Mapping[str, str | bytes]) -> None:
+def save_files(folder: Path, files: Mapping[str, Content]) -> None:
     """Write tables or pictures of a study, each in place of that of an earlier run and of nothing else."""
     for name in sorted(files.keys() - written(folder)):
         if (folder / name).exists():

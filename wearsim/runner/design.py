@@ -3,11 +3,11 @@
 import copy
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import PurePath
-from typing import Any
+from typing import Any, TypeVar
 
 from wearsim._version import __version__
 from wearsim.case.model import Case
@@ -60,7 +60,7 @@ class Design:
     files: Mapping[str, str]  # texts of the files that the tables and values name
     # dotted keys that differ; entries of a list of tables by their numbers from 1
     keys: tuple[str, ...]
-    rows: tuple[tuple[Any, ...], ...]  # values of the keys, a row for each case
+    rows: Sequence[Sequence[Any]]  # values of the keys, a row for each case
     lives: tuple[str, ...] = ()  # parts whose lives have columns of their own, of all cases
 
     @property
@@ -85,7 +85,7 @@ class Design:
             "tables": self.tables,
             "files": self.files,
             "keys": self.keys,
-            "rows": self.rows,
+            "rows": [content_hash({"rows": rows}) for rows in batched(self.rows)],
             "engine": vars(engine()),
         }
         return content_hash(content)
@@ -109,6 +109,18 @@ class Design:
         differs = [place for place, key in enumerate(self.keys) if key in _OF_A_MECHANISM]
         cases = {tuple(str(row[place]) for place in differs): index for index, row in enumerate(self.rows)}
         return {mechanism_of(self.tables_of(index)) for index in cases.values()}
+
+
+Item = TypeVar("Item")
+
+
+def batched(rows: Sequence[Item]) -> Iterator[Sequence[Item]]:
+    """Give a sequence in pieces, as a million rows at once take a gigabyte as text."""
+    for first in range(0, len(rows), _BATCH):
+        yield rows[first : first + _BATCH]
+
+
+_BATCH = 10_000
 
 
 def content_hash(content: Mapping[str, Any]) -> str:
@@ -191,16 +203,17 @@ def design(document: Document, keys: Sequence[str], rows: Sequence[Sequence[Any]
         given = value_at(tables, ".".join(path))
         if isinstance(given, str):
             tables = replaced(tables, path, _taken(document, files, given))
-    moved = tuple(
-        tuple(
-            _taken(document, files, value)
-            if without_numbers(key) in NAMES_FILE and isinstance(value, str)
-            else value
-            for key, value in zip(keys, row, strict=True)
-        )
-        for row in rows
-    )
-    return Design(document.name, tables, files, tuple(keys), moved).with_lives()
+    if any(without_numbers(key) in NAMES_FILE for key in keys):
+        rows = [
+            tuple(
+                _taken(document, files, value)
+                if without_numbers(key) in NAMES_FILE and isinstance(value, str)
+                else value
+                for key, value in zip(keys, row, strict=True)
+            )
+            for row in rows
+        ]
+    return Design(document.name, tables, files, tuple(keys), rows).with_lives()
 
 
 def _check_keys(document: Document, keys: Sequence[str], file: str) -> None:

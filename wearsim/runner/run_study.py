@@ -1,15 +1,17 @@
 """Running a study: what is not finished goes to the workers, and is kept as it comes back."""
 
+import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import suppress
 from itertools import islice
 
+import numpy as np
 import pandas as pd
 
 from wearsim.errors import StudyError
 from wearsim.runner.design import Design
-from wearsim.runner.shard import COLUMNS, Rows, Shard, life_columns, run_shard, shards
+from wearsim.runner.shard import COLUMNS, TEXTS, Rows, Shard, life_columns, run_shard, shards
 from wearsim.runner.store import Store
 from wearsim.runner.workers import Workers
 from wearsim.wear.accuracy import EXCEEDS
@@ -30,43 +32,40 @@ def run_study(
     progress: ProgressCount = lambda done, count: None,
 ) -> pd.DataFrame:
     """Run the cases of a study that are not finished yet."""
-    done: dict[int, Rows] = {}
-    waiting: list[Shard] = []
+    done, waiting, losses = _Done(design), [], 0
     for shard in shards(design):
         rows = store.finished(shard) if store is not None else None
         if rows is None:
-            waiting.append(shard)
+            waiting.append(shard.first)
         else:
-            done[shard.first] = rows
-    count = sum(len(rows["case_index"]) for rows in done.values())
-    progress(count, len(design.rows))
-    losses = 0
+            done.add(shard, rows)
+    progress(done.count, len(design.rows))
     while waiting:
-        before = len(done)
-        for shard, rows in _run(waiting, workers):
+        before = done.count
+        for shard, rows in _run(shards(design, waiting), workers):
             if store is not None:
                 store.save(shard, rows)
-            done[shard.first] = rows
-            count += shard.count
-            progress(count, len(design.rows))
-        waiting = [shard for shard in waiting if shard.first not in done]
-        losses = losses + 1 if len(done) == before else 0
+            done.add(shard, rows)
+            progress(done.count, len(design.rows))
+        waiting = [first for first in waiting if not done.has(first)]
+        losses = losses + 1 if done.count == before else 0
         if losses == _MAX_LOSSES:
             raise StudyError(
                 f"workers died {losses} times before they had finished anything: take fewer of them "
                 "or give them more memory; what is finished is kept"
             )
-    return _table(design, [done[first] for first in sorted(done)])
+    return done.table()
 
 
 def missed_tolerance(table: pd.DataFrame) -> str:
-    """Return how many cases of a study miss their tolerance and by how much; empty where none does."""
+    """Return how many lives of a study miss their tolerance and by how much; empty where none does."""
     missed = table[table["warnings"].str.contains(EXCEEDS, regex=False)]
     if missed.empty:
         return ""
     what = "misses its" if len(missed) == 1 else "miss their"
+    sound = (table["error"] == "").sum()
     return (
-        f"{len(missed)} of {len(table)} cases {what} run.life_tolerance, with a stated error of up to "
+        f"{len(missed)} of {sound} cases {what} run.life_tolerance, with a stated error of up to "
         f"{100.0 * missed['numerical_error'].max():.2g} %"
     )
 
@@ -86,9 +85,8 @@ def failures(table: pd.DataFrame) -> str:
     return what
 
 
-def _run(waiting: list[Shard], workers: Workers) -> Iterator[tuple[Shard, Rows]]:
+def _run(remaining: Iterator[Shard], workers: Workers) -> Iterator[tuple[Shard, Rows]]:
     """Give shards as they are finished, until all are or a worker has died."""
-    remaining = iter(waiting)
     with workers.open() as (executor, count):
         futures = _submitted(executor, workers, islice(remaining, (1 + _AHEAD) * count))
         try:
@@ -120,11 +118,35 @@ def _submitted(executor: Executor, workers: Workers, shards: Iterator[Shard]) ->
     return found
 
 
-def _table(design: Design, parts: list[Rows]) -> pd.DataFrame:
-    lives = life_columns(design)
-    columns = {name: [value for rows in parts for value in rows[name]] for name in (*COLUMNS, *lives)}
-    given = pd.DataFrame(list(design.rows), columns=list(design.keys))
-    table = pd.DataFrame(columns)
-    floats = ("life_hours", "hours_run", "cycles_run", "numerical_error", *lives)
-    table = table.astype(dict.fromkeys(floats, float))
-    return pd.concat([table[["case_index"]], given, table.drop(columns="case_index")], axis=1)
+class _Done:
+    """What is finished of a study: a million cases take some 250 MB, as equal texts are kept once."""
+
+    def __init__(self, design: Design) -> None:
+        self.count, self._design = 0, design
+        self._runs = np.zeros(len(design.rows), bool)
+        self._columns = {
+            name: np.full(len(design.rows), None, object)
+            if name in TEXTS
+            else np.full(len(design.rows), np.nan)
+            for name in (*COLUMNS[1:], *life_columns(design))
+        }
+
+    def has(self, first: int) -> bool:
+        """Return whether the shard that begins there is finished."""
+        return bool(self._runs[first])
+
+    def add(self, shard: Shard, rows: Rows) -> None:
+        """Take the rows of a shard."""
+        place = slice(shard.first, shard.first + shard.count)
+        for name, column in self._columns.items():
+            texts = column.dtype == object
+            column[place] = [text and sys.intern(text) for text in rows[name]] if texts else rows[name]
+        self._runs[place] = True
+        self.count += shard.count
+
+    def table(self) -> pd.DataFrame:
+        """Return a row for each case: its number, the values of the keys, what is known of its life."""
+        rows, keys = self._design.rows, self._design.keys
+        given = {key: pd.Series([row[place] for row in rows]) for place, key in enumerate(keys)}
+        found = {name: pd.Series(column, dtype=column.dtype) for name, column in self._columns.items()}
+        return pd.DataFrame({"case_index": np.arange(len(rows)), **given, **found}, copy=False)

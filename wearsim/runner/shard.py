@@ -1,7 +1,7 @@
 """A part of a study that is run and stored as a whole; all that a worker needs to run it."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -27,6 +27,9 @@ COLUMNS = (
     "case_sha256",
 )
 """What is known of a case that has run, or of why it has not."""
+
+TEXTS = ("stop", "warnings", "error", "case_sha256")
+"""Columns of words; all others are numbers."""
 
 Rows = dict[str, list[Any]]
 
@@ -60,10 +63,10 @@ def life_columns(design: Design) -> tuple[str, ...]:
     return tuple(f"{name}_life_hours" for name in design.lives)
 
 
-def shards(design: Design) -> Iterator[Shard]:
-    """Give the shards of a study in order."""
+def shards(design: Design, firsts: Iterable[int] | None = None) -> Iterator[Shard]:
+    """Give the shards of a study in order, all or those that begin there."""
     size = design.cases_per_shard
-    for first in range(0, len(design.rows), size):
+    for first in range(0, len(design.rows), size) if firsts is None else firsts:
         yield Shard(first, design.part(first, size), engine())
 
 

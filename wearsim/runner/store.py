@@ -14,7 +14,7 @@ from wearsim.errors import OutputError
 from wearsim.extras import library
 from wearsim.files import MARKER, check_free, left_beside, mark, new_file, write_file, written
 from wearsim.runner.design import Design, content_hash
-from wearsim.runner.shard import Rows, Shard
+from wearsim.runner.shard import TEXTS, Rows, Shard
 
 MANIFEST = "study.json"
 _SHARDS = "shards"
@@ -26,7 +26,6 @@ _DESIGN_NAME = re.compile(r"[0-9]{2,}\.toml")
 _DESIGN_LINE = re.compile(rf"# design [0-9]+{DESIGN_MARK}")
 
 _HASH = b"rows_sha256"
-_TEXTS = ("stop", "warnings", "error", "case_sha256")
 
 
 @dataclass(frozen=True)
@@ -65,7 +64,7 @@ class Store:
         arrow = library("pyarrow", "parquet", "--out")
         from pyarrow import parquet
 
-        kinds = {name: arrow.string() for name in _TEXTS} | {"case_index": arrow.int64()}
+        kinds = {name: arrow.string() for name in TEXTS} | {"case_index": arrow.int64()}
         columns = {
             name: arrow.array(values, kinds.get(name, arrow.float64())) for name, values in rows.items()
         }

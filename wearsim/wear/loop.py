@@ -34,6 +34,7 @@ from wearsim.kernels.hertz_wear import (
     VANISHED,
     WORN,
 )
+from wearsim.quantities import time_in_words
 from wearsim.wear.limit_in_step import first_place
 from wearsim.wear.problem import AnyContact, WearProblem
 from wearsim.wear.trajectory import SNAPSHOTS, Trajectory, check_sawtooth, check_touch, no_sliding
@@ -208,25 +209,11 @@ def check_length(problem: WearProblem[AnyContact], expected: float, cycles_per_u
     if updates > most_updates:
         raise ConvergenceError(
             f"wear: a cycle-by-cycle run must stay below {most_updates} updates, takes {updates:.3g}, about "
-            f"{_in_words(seconds)}: take cycles_per_update = {math.ceil(expected / most_updates)} or "
+            f"{time_in_words(seconds)}: take cycles_per_update = {math.ceil(expected / most_updates)} or "
             'method = "advance"'
         )
     if seconds > _LONG:
-        _LOG.info("cycle by cycle: %s updates, about %s", f"{updates:.3g}", _in_words(seconds))
-
-
-def _in_words(seconds: float) -> str:
-    """Return a time as people say it.
-
-    Examples
-    --------
-    >>> _in_words(8.24), _in_words(300.0), _in_words(7.2e4)
-    ('8 s', '5 min', '20 h')
-    """
-    if seconds < 99.0:
-        return f"{seconds:.0f} s"
-    minutes = seconds / 60.0
-    return f"{minutes:.2g} min" if minutes < 99.0 else f"{minutes / 60.0:.0f} h"
+        _LOG.info("cycle by cycle: %s updates, about %s", f"{updates:.3g}", time_in_words(seconds))
 
 
 def run_per_cycle(

@@ -10,6 +10,7 @@ from wearsim.command.complete import CasePath
 from wearsim.command.options import common_options, explain_option, overrides, print_json, show, warn
 from wearsim.command.study import StudyOptions, study_options
 from wearsim.command.study_run import in_batches, timed
+from wearsim.quantities import time_in_words
 
 if TYPE_CHECKING:
     from wearsim.study.optimise.model import OptimiseStudy
@@ -103,8 +104,7 @@ def _show_plan(study: "OptimiseStudy", options: StudyOptions, identity: Mapping[
     points = study.space.start(4, study.seed, study.values)
     seconds, count = timed(study.design([study.space.values(point) for point in points]))
     click.echo(f"designs      {study.evaluations} at most, beside the case as given")
-    click.echo(
-        f"time         at least {seconds * study.evaluations:.3g} s in one thread, from {count} designs"
-    )
+    time = time_in_words(seconds * study.evaluations)
+    click.echo(f"time         at least {time} in one thread, from {count} designs")
     if options.out is not None:
         click.echo(f"files        in {options.out / 'shards'}, and tables beside it")

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from wearsim._version import ANSWER_HEAD
 from wearsim.case.model import Case
 from wearsim.quantities import grouped
-from wearsim.report.answer_table import AnswerTable, Column, csv_of
+from wearsim.report.answer_table import AnswerTable, Column, csv_parts
 from wearsim.report.figures import number_ticks
 from wearsim.report.key_words import key_words
 from wearsim.report.study_files import save_figures, save_files
@@ -135,7 +135,7 @@ def sensitivity_json(answer: SensitivityAnswer) -> dict[str, Any]:
 def write_sensitivity(answer: SensitivityAnswer, table: pd.DataFrame, folder: Path) -> None:
     """Write tables and the tornado into the folder of a study."""
     texts = {
-        "cases.csv": csv_of(table),
+        "cases.csv": csv_parts(table),
         "sensitivity.csv": sensitivity_table(answer).csv(),
         "summary.md": fenced(sensitivity_text(answer, explain=True)),
     }

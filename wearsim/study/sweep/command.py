@@ -36,12 +36,12 @@ def sweep(study: Path, as_json: bool, options: StudyOptions, settings: tuple[str
         sweep_accuracy,
         sweep_caution,
         sweep_json,
-        sweep_text,
+        sweep_lines,
         sweep_warning,
         write_sweep,
     )
 
-    for line in sweep_json(loaded, table) if as_json else [sweep_text(loaded, table)]:
+    for line in (sweep_json if as_json else sweep_lines)(loaded, table):
         click.echo(line)
     of_cases = "" if as_json else sweep_warning(table)
     for warning in filter(None, [sweep_caution(loaded, table), sweep_accuracy(table), of_cases]):

@@ -4,7 +4,7 @@ import itertools
 import math
 from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from pydantic import ValidationError
@@ -50,20 +50,55 @@ def load_sweep(source: CaseSource, overrides: Sequence[str] = (), case: GivenInp
     document, written = (read_document(of_case, sets) for sets in (overrides, ()))
     axes = list(_axes(tables, whole_number_keys(schema_of(document.data))))
     keys = [key for axis in axes for key in axis.keys]
-    count = int(np.prod([len(axis.rows) for axis in axes], dtype=float))
+    rows = Combinations([axis.rows for axis in axes])
+    count = math.prod(map(len, rows.axes))  # len() has an end
     if count > MAX_CASES:
         text = f"a sweep may have at most {MAX_CASES} cases, this has {count}: give fewer values"
         raise CaseError([Fault(text, "grid", place)])
-    rows = [
-        tuple(itertools.chain.from_iterable(parts))
-        for parts in itertools.product(*(axis.rows for axis in axes))
-    ]
     check_command(document.data, document.faults.file, "life")
     title = {"title": tables.title}
     retold = retitled({**document.data, **title}, {**written.data, **title})["title"]
     cases = design(document, keys, rows, place)
     _check_values(given, document, cases, axes)
     return Sweep(retold, tuple(axis.keys for axis in axes), cases)
+
+
+@dataclass(frozen=True)
+class Combinations(Sequence[tuple[Any, ...]]):
+    """Every combination of rows of some axes, each made when it is asked for, the last axis fastest.
+
+    Examples
+    --------
+    >>> found = Combinations([[(1,), (2,)], [("a", 0.1), ("b", 0.2), ("c", 0.3)]])
+    >>> len(found), found[4], found[2:4]
+    (6, (2, 'b', 0.2), [(1, 'c', 0.3), (2, 'a', 0.1)])
+    """
+
+    axes: Sequence[Sequence[tuple[Any, ...]]]
+
+    def __len__(self) -> int:
+        return math.prod(map(len, self.axes))
+
+    def __iter__(self) -> Iterator[tuple[Any, ...]]:
+        for parts in itertools.product(*self.axes):
+            yield tuple(itertools.chain.from_iterable(parts))
+
+    @overload
+    def __getitem__(self, place: int) -> tuple[Any, ...]: ...
+
+    @overload
+    def __getitem__(self, place: slice) -> list[tuple[Any, ...]]: ...
+
+    def __getitem__(self, place: int | slice) -> Any:
+        places = range(len(self))[place]
+        return [self._row(at) for at in places] if isinstance(places, range) else self._row(places)
+
+    def _row(self, at: int) -> tuple[Any, ...]:
+        parts: list[tuple[Any, ...]] = []
+        for axis in reversed(self.axes):
+            at, here = divmod(at, len(axis))
+            parts.insert(0, axis[here])
+        return tuple(itertools.chain.from_iterable(parts))
 
 
 @dataclass(frozen=True)

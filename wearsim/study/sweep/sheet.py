@@ -1,8 +1,9 @@
 """What is shown of a sweep: a table, JSON, and files in its folder."""
 
+import itertools
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import partial
 from operator import itemgetter
 from pathlib import Path
@@ -12,7 +13,7 @@ import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped
-from wearsim.report.answer_table import AnswerTable, Column, csv_of, records_of
+from wearsim.report.answer_table import Column, csv_parts, frame_rows, markdown_lines, plain
 from wearsim.report.chain_first import chain_first, is_of_form
 from wearsim.report.study_files import save_figures, save_files
 from wearsim.runner.run_study import missed_tolerance
@@ -22,6 +23,11 @@ from wearsim.study.sweep.model import Sweep
 
 def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
     """Return a sweep as a Markdown table."""
+    return "\n".join(sweep_lines(sweep, table))
+
+
+def sweep_lines(sweep: Sweep, table: pd.DataFrame) -> Iterator[str]:
+    """Give the lines of a sweep as a Markdown table."""
     design = sweep.design
     parts = zip(design.lives, life_columns(design), strict=True)
     columns: list[Column[Any]] = [
@@ -30,7 +36,7 @@ def sweep_text(sweep: Sweep, table: pd.DataFrame) -> str:
         Column("", lambda row: "" if row["error"] else row["stop"], "ended by"),
         *(Column("", partial(_part_life, column), f"{name}, h") for name, column in parts),
     ]
-    return AnswerTable(columns, table.to_dict("records")).markdown()
+    return markdown_lines(columns, frame_rows(table))
 
 
 def sweep_caution(sweep: Sweep, table: pd.DataFrame) -> str:
@@ -43,7 +49,7 @@ def sweep_caution(sweep: Sweep, table: pd.DataFrame) -> str:
 
 def sweep_accuracy(table: pd.DataFrame) -> str:
     """Return how many lives are known less exactly than was asked for; empty where none is."""
-    text = missed_tolerance(table[table["error"] == ""])
+    text = missed_tolerance(table)
     return text and f"{text}: numerical_error of each is in --json and cases.csv of --out"
 
 
@@ -56,22 +62,22 @@ def sweep_warning(table: pd.DataFrame) -> str:
     return f"{count} (listed by --json and in cases.csv of --out), the first: {warned[0].splitlines()[0]}"
 
 
-def sweep_json(sweep: Sweep, table: pd.DataFrame) -> list[str]:
-    """Return a sweep as JSON, an object for each case."""
-    lines = []
-    for known in records_of(table):
+def sweep_json(sweep: Sweep, table: pd.DataFrame) -> Iterator[str]:
+    """Give a sweep as JSON, an object for each case."""
+    for row in frame_rows(table):
+        known = {name: plain(value) for name, value in row.items()}
         inputs = {key: known.pop(key) for key in sweep.design.keys}
         content = ANSWER_HEAD | {"case": sweep.design.name, "inputs": inputs, **known}
-        lines.append(json.dumps(content, ensure_ascii=False, allow_nan=False))
-    return lines
+        yield json.dumps(content, ensure_ascii=False, allow_nan=False)
 
 
 def write_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> None:
     """Write the table and the pictures of a sweep into its folder."""
     from wearsim.study.sweep.figure import sweep_figures
 
-    texts = {"cases.csv": csv_of(table), "summary.md": f"# {sweep.title}\n\n{sweep_text(sweep, table)}\n"}
-    save_files(folder, texts)
+    lines = (f"{line}\n" for line in sweep_lines(sweep, table))
+    summary = itertools.chain([f"# {sweep.title}\n\n"], lines)
+    save_files(folder, {"cases.csv": csv_parts(table), "summary.md": summary})
     save_figures(folder, sweep.title, sweep_figures(sweep, table))
 
 

@@ -8,7 +8,7 @@ import pandas as pd
 
 from wearsim._version import ANSWER_HEAD
 from wearsim.quantities import grouped, percentile_meaning
-from wearsim.report.answer_table import csv_of, plain, records_of
+from wearsim.report.answer_table import csv_of, csv_parts, plain, records_of
 from wearsim.report.study_files import save_figures, save_files
 from wearsim.report.text_lines import closing_lists, fenced
 from wearsim.study.uncertainty.cross_check import BoundedValue, CrossCheck, CrossFit
@@ -92,7 +92,7 @@ def write_uncertainty(answer: UncertaintyAnswer, folder: Path) -> None:
     from wearsim.study.uncertainty.figure import uncertainty_figures
 
     texts = {
-        "cases.csv": csv_of(answer.table),
+        "cases.csv": csv_parts(answer.table),
         "convergence.csv": csv_of(answer.convergence),
         "summary.md": fenced(uncertainty_text(answer, explain=True)),
     }
