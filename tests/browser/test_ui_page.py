@@ -6,8 +6,11 @@ import os
 import re
 import socket
 import subprocess
+import sys
 import time
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 import wearsim
@@ -586,3 +589,28 @@ def test_seconds_from_an_edit_to_its_answer(watched, serve, text, edits, first):
         times = sorted(after[state] for after in found)
         print(f"\n{state}: {times[len(times) // 2]:.0f} ms ({times[0]:.0f} to {times[-1]:.0f})", end="")
     assert min(after[first] for after in found) < 3000.0
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="memory is read from /proc")
+def test_five_hundred_edits_leave_memory_threads_and_files(watched, serve):
+    """Printed, and bounded by what the last 300 edits show: memory goes up and down by megabytes."""
+    server = serve(STRAND)
+    page = opened(watched, server)
+    page.evaluate(WATCH)
+    place, readings = Path("/proc", str(server.process.pid)), []
+    for number in range(1, 501):
+        field(page, "load.power_kW").fill(f"{2.5 + 0.001 * number:.3f}")
+        page.wait_for_function("window.after && window.after.current", timeout=60_000)
+        if number >= 200 and number % 10 == 0:
+            pages = int((place / "statm").read_text().split()[1])
+            counts = [len(list((place / kind).iterdir())) for kind in ("task", "fd")]
+            readings.append((number, pages * os.sysconf("SC_PAGE_SIZE"), *counts))
+    number, memory, threads, files = np.array(readings).T
+    (slope, _), spread = np.polyfit(number, memory, 1, cov=True)
+    error = np.sqrt(spread[0, 0])
+    print(
+        f"\n{memory[-1] / 1e6:.0f} MB, {slope:.0f} bytes an edit with a standard error of {error:.0f}", end=""
+    )
+    assert slope - 2.0 * error < 1000.0
+    assert max(threads[-5:]) <= max(threads[:5])
+    assert max(files[-5:]) <= max(files[:5])
