@@ -1,6 +1,6 @@
 """Kill commands while they write: what is there afterwards is nothing, the old file or the new one, whole.
 
-``python research/kills.py`` (a quarter of an hour) kills every command that writes eight times, with and
+``python research/kills.py`` (twenty minutes) kills every command that writes nine times, with and
 without an old output in its place, half of them at once when something appears beside the output.
 The command then runs again: its output must be equal to that of a run that nobody killed, but for bytes
 that differ between two of those, and nothing may lie beside it. ``--kills 3`` tries fewer.
@@ -19,7 +19,16 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-REPORT = Path(__file__).parents[1] / "reports" / "reference" / "kills.md"
+import numpy as np
+
+import wearsim
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+
+from photographs import Camera, picture, wheel  # noqa: E402
+
+REPORT = ROOT / "reports" / "reference" / "kills.md"
 
 COMMANDS = {
     "life": "life 16b-20t-oiled --force --out {}",
@@ -31,6 +40,8 @@ COMMANDS = {
     "report, a workbook": "report packaging-conveyor --force --out {}/sheet.xlsx",
     "maintain": "maintain packaging-conveyor --force --out {}",
     "lubricate": "lubricate bicycle-17t-lubricants --force --out {}",
+    "remaining": "remaining 08b-19t-wrap {log} --force --out {}",
+    "scan": "scan {photo} --chain 08B --force --out {}",
     "scan --sheet": "scan --force --sheet {}/sheet.pdf",
     "calibrate": "calibrate 16b-20t-oiled 16b-20t-readings --force --out {}",
     "judge": "judge metal-wear --force --out {}",
@@ -40,12 +51,17 @@ COMMANDS = {
     "init": "init --kind wrap --chain 12B-1 --teeth 21 --force --out {}/case.toml",
     "select": "select --power 3 --rpm 120 --ratio 2.7 --hours 15000 --force --csv {}/drives.csv",
     "handbook strength": "handbook strength strength-a-tempered --force --out {}",
+    "handbook synthesise": "handbook synthesise synthesise-constant-stress --force --out {}",
     "sweep": "sweep teeth-and-tension --out {}",
     "uncertainty": "uncertainty 16b-20t-oiled --samples 64 --out {}",
     "sensitivity": "sensitivity 16b-20t-oiled --samples 8 --out {}",
     "optimise": "optimise 16b-20t-lightest --out {}",
 }
-"""Command lines; ``{}`` is the folder that they write to, or into."""
+"""Command lines; ``{}`` is the folder that they write to, or into, ``{log}`` and ``{photo}`` are inputs."""
+
+LOG = (
+    "time_hours,quantity,value,error\n2000,elongation_percent,0.15,0.05\n4000,elongation_percent,0.31,0.05\n"
+)
 
 RESUMED = ("sweep", "uncertainty", "sensitivity", "optimise")
 """Commands whose folder may be partly done: a further run goes on with it."""
@@ -64,10 +80,11 @@ class Tally:
 
 def files_in(folder: Path) -> Files:
     """Return the digests of all files below a folder, but for what a later run clears away."""
+    found = {path.relative_to(folder): path for path in sorted(folder.rglob("*")) if path.is_file()}
     return {
-        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in sorted(folder.rglob("*"))
-        if path.is_file() and not re.fullmatch(r"\..+\.[a-z0-9_]{8}", path.name)
+        str(name): hashlib.sha256(path.read_bytes()).hexdigest()
+        for name, path in found.items()
+        if not any(re.fullmatch(r"\..+\.[a-z0-9_]{8}", part) for part in name.parts)
     }
 
 
@@ -97,12 +114,9 @@ class Trial:
         return files_in(self.out)
 
     def command(self) -> list[str]:
-        return [
-            sys.executable,
-            "-m",
-            "wearsim",
-            *self.line.format(*[self.out] * self.line.count("{}")).split(),
-        ]
+        outs = [self.out] * self.line.count("{}")
+        inputs = {"log": self.folder.parent / "log.csv", "photo": self.folder.parent / "photo.png"}
+        return [sys.executable, "-m", "wearsim", *self.line.format(*outs, **inputs).split()]
 
     def run_to_its_end(self, clear: bool = True) -> Files:
         if clear:
@@ -131,6 +145,16 @@ class Trial:
         process.kill()
         process.wait()
 
+    def left_behind(self) -> list[str]:
+        """Return what is there beside an output that is complete, but for files of the last ten seconds.
+
+        Their writers may not have locked them yet.
+        """
+        beside = [path.name for path in self.folder.iterdir() if path != self.out]
+        written = {Path(name).parts[0] for name in self.whole}
+        within = [path.name for path in self.out.iterdir() if path.is_dir() and path.name not in written]
+        return sorted([*beside, *within])
+
     def tried(self, draw: random.Random, number: int, tally: Tally) -> None:
         """Kill once, look at what is there, run again and look once more."""
         old = number % 2 == 1 and self.name not in RESUMED
@@ -155,8 +179,16 @@ class Trial:
                 tally.broken.append(f"{self.name}: the next run writes something else")
         except SystemExit as error:
             tally.broken.append(f"{self.name}: the next run: {error}")
-        if beside := sorted(path.name for path in self.folder.iterdir() if path != self.out):
+        if beside := self.left_behind():
             tally.broken.append(f"{self.name}: left behind: {beside}")
+
+
+def write_inputs(folder: Path) -> None:
+    """Write a log of a chain and a picture of a new sprocket."""
+    (folder / "log.csv").write_text(LOG, "utf-8")
+    outline = wearsim.load_case("08b-19t-wrap").drive.outline
+    gap = np.column_stack([outline.x, outline.y])
+    picture(wheel([gap] * 19), Camera(size=(800, 600))).save(folder / "photo.png")
 
 
 def report(tallies: dict[str, Tally]) -> str:
@@ -187,6 +219,7 @@ def main() -> None:
     os.environ["SOURCE_DATE_EPOCH"] = "0"
     draw, tallies = random.Random(38), {}  # noqa: S311
     with tempfile.TemporaryDirectory() as folder:
+        write_inputs(Path(folder))
         for name, line in COMMANDS.items():
             if given.only not in name:
                 continue

@@ -21,7 +21,7 @@ from reliability import drawn, lives
 import wearsim
 
 REPORT = Path(__file__).parents[1] / "reports" / "reference" / "soak.md"
-KINDS = ("strand", "pair", "strand", "table")
+KINDS = (*4 * ("strand", "pair", "strand", "table"), "strand", "pair", "strand", "wrap")
 EVERY = 50
 """Runs between two readings of the memory."""
 
@@ -45,12 +45,22 @@ def ended(number: int, folder: Path) -> str:
     try:
         tables = drawn(kind, number, folder)
         tables.setdefault("run", {})["life_tolerance"] = 0.1
-        result = next(iter(lives(tables).values()))
+        result = lives(tables)[0]["sprocket"]
     except wearsim.WearsimError:
-        return f"{kind}, refused"
+        return f"{kind} refused"
     result.save(folder / "run", force=True)
     wearsim.WearResult.load(folder / "run")
     return kind
+
+
+def slope_of(readings: list[int]) -> tuple[float, float]:
+    """Return how much readings grow by a run, with a standard error, after the first quarter.
+
+    That quarter loads libraries and fills caches.
+    """
+    late = readings[len(readings) // 4 :]
+    fit, spread = np.polyfit(EVERY * np.arange(len(late)), late, 1, cov=True)
+    return float(fit[0]), float(np.sqrt(spread[0, 0]))
 
 
 def main() -> None:
@@ -59,7 +69,7 @@ def main() -> None:
     runs: int = parser.parse_args().runs
     warnings.simplefilter("ignore")
     ends: Counter[str] = Counter()
-    memory, files = [], []
+    memory, blocks, files = [], [], []
     with tempfile.TemporaryDirectory() as folder:
         for number in range(runs):
             ends[ended(number, Path(folder))] += 1
@@ -67,14 +77,13 @@ def main() -> None:
                 gc.collect()
                 ctypes.CDLL(None).malloc_trim(0)
                 memory.append(resident())
+                blocks.append(sys.getallocatedblocks())
                 files.append(open_files())
-    # The first quarter loads libraries and fills caches.
-    late = memory[len(memory) // 4 :]
-    fit, spread = np.polyfit(EVERY * np.arange(len(late)), late, 1, cov=True)
-    slope, error = float(fit[0]), float(np.sqrt(spread[0, 0]))
+    slope, error = slope_of(memory)
+    more_blocks, blocks_error = slope_of(blocks)
     rows = "\n".join(
-        f"| {EVERY * number} | {used / 1e6:.1f} | {count} |"
-        for number, (used, count) in enumerate(zip(memory, files, strict=True), 1)
+        f"| {EVERY * number} | {used / 1e6:.1f} | {held} | {count} |"
+        for number, (used, held, count) in enumerate(zip(memory, blocks, files, strict=True), 1)
         if number % 5 == 0 or number == 1
     )
     mixed = ", ".join(f"{count} {name}" for name, count in sorted(ends.items()))
@@ -83,11 +92,12 @@ def main() -> None:
 Written by `python research/soak.py`: {mixed}.
 Each is saved and loaded. After the first quarter memory grows by {slope:.0f} bytes a run with a standard
 error of {error:.0f}, as it goes up and down by some megabytes ({SLOPE:.0f} allowed; the script fails where
-the slope is more by two standard errors). {files[-1] - files[0]} more files are open at the end than
+the slope is more by two standard errors), and blocks of Python's objects by {more_blocks:.2f} a run with
+one of {blocks_error:.2f}. {files[-1] - files[0]} more files are open at the end than
 at the first reading.
 
-| runs | memory, MB | open files |
-|---|---|---|
+| runs | memory, MB | blocks | open files |
+|---|---|---|---|
 {rows}
 """
     if runs == 2000:
