@@ -22,6 +22,9 @@ _AHEAD = 3
 _MAX_LOSSES = 3
 """Times in a row that workers may die before anything is finished."""
 
+_OFTEN = tuple(name for name in TEXTS if name != "case_sha256")
+"""Texts that many cases have; a hash is its own case's, and the table of a million texts takes 60 MB."""
+
 ProgressCount = Callable[[int, int], None]
 
 
@@ -139,8 +142,8 @@ class _Done:
         """Take the rows of a shard."""
         place = slice(shard.first, shard.first + shard.count)
         for name, column in self._columns.items():
-            texts = column.dtype == object
-            column[place] = [text and sys.intern(text) for text in rows[name]] if texts else rows[name]
+            often = name in _OFTEN
+            column[place] = [text and sys.intern(text) for text in rows[name]] if often else rows[name]
         self._runs[place] = True
         self.count += shard.count
 
@@ -148,5 +151,7 @@ class _Done:
         """Return a row for each case: its number, the values of the keys, what is known of its life."""
         rows, keys = self._design.rows, self._design.keys
         given = {key: pd.Series([row[place] for row in rows]) for place, key in enumerate(keys)}
-        found = {name: pd.Series(column, dtype=column.dtype) for name, column in self._columns.items()}
+        found = {
+            name: pd.Series(column, dtype=column.dtype, copy=False) for name, column in self._columns.items()
+        }
         return pd.DataFrame({"case_index": np.arange(len(rows)), **given, **found}, copy=False)
