@@ -39,6 +39,24 @@ class LimitNotReachedError(WearsimError, ValueError):
     """A life was asked for, but the run ended before any limit was met."""
 
 
+_LONGEST = 60
+"""Characters of a value in a message."""
+
+
+def quoted(value: object) -> str:
+    """Return a value as a message quotes it, cut where it is long.
+
+    Examples
+    --------
+    >>> quoted("3 kW"), quoted(True), len(quoted("k" * 1000))
+    ("'3 kW'", 'true', 60)
+    """
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = repr(value)
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
+
+
 @dataclass(frozen=True)
 class Fault:
     """One thing wrong with an input."""

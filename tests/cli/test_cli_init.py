@@ -244,6 +244,12 @@ def test_chains_that_had_no_mass(cli, tmp_path, chain):
         ("--driven", "1001", "must be a whole number from 5 to 1000"),
         ("--power", "3 kg", "the unit must be convertible to kW (got '3 kg')"),
         ("--power", "lots", "must be one number and its unit, such as '1.5 kW' (got 'lots')"),
+        ("--power", "3 kW*9**9**9**9", "unknown unit 'kW*9**9**9**9'"),
+        (
+            "--power",
+            f"3 {1000 * 'k'}W",
+            f"in at most 100 characters, has 1003: shorten it (got '3 {54 * 'k'}...)",
+        ),
         ("--power", "0", "must be a number above 0 (got '0')"),
         ("--power", "nan", "must be a number above 0"),
         ("--power", "9000", "must stay below the chain's tensile strength 60000 N"),

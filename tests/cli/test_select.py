@@ -162,6 +162,7 @@ def test_fault_as_json(cli):
     ("options", "message"),
     [
         (("--ratio", "9"), "--ratio: must be that of 17 to 25 teeth"),
+        (("--power", "3 kW*9**9**9**9"), "--power: unknown unit 'kW*9**9**9**9'"),
         (("--teeth-min", "30"), "--teeth-max: must be at least teeth_min"),
         (("--centre", "500", "--centre-max", "600"), "--centre-max: must be left out"),
         (("--strands", "a"), "--strands: must be a whole number or two"),

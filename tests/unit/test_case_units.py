@@ -70,3 +70,31 @@ def test_unknown_unit(text):
 def test_speed_that_may_mean_turns_or_radians(text):
     with pytest.raises(ValueError, match="write a speed in rpm or rad/s"):
         convert(text, "rpm")
+
+
+@pytest.mark.parametrize(
+    "unit",
+    [
+        "N*9**9**9**9",
+        "N^9^9^9^9",
+        "N**(9**9**9)",
+        "min²²²²²²²²²/s²²²²²²²²²*N",
+        "N*٩^٩^٩^٩",
+        "(((min^9)^9)^9)^9/(((s^9)^9)^9)^9*N",
+    ],
+)
+def test_powers_that_would_take_for_ever(unit):
+    with pytest.raises(ValueError, match="unknown unit"):
+        convert(f"1 {unit}", "N")
+
+
+@pytest.mark.parametrize("text", ["1 a" + 300_000 * " " + "b", 200_000 * "1" + " ,", f"1 {200_000 * 'k'}N"])
+def test_long_text_is_left_unread(text):
+    with pytest.raises(ValueError, match=r"in at most 100 characters, has \d+: shorten it"):
+        convert(text, "N")
+
+
+@pytest.mark.parametrize("sign", ["\u202e", "\u200b", "\x1b", "\x00", "\t"])
+def test_unseen_characters_in_a_quantity(sign):
+    with pytest.raises(ValueError, match=f"holds U\\+{ord(sign):04X}: remove it"):
+        convert(f"1 N{sign}", "N")

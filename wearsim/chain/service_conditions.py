@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from wearsim.catalogue.catalogues import HARDNESSES, condition_of_teeth, environments, lubricants, nearest
 from wearsim.chain.joint_pressure import JointApplication, joint_application
 from wearsim.chain.power_rating import application_factor
-from wearsim.errors import CaseError, Fault
+from wearsim.errors import CaseError, Fault, quoted
 
 LUBRICATIONS = {
     "drip": "drip",
@@ -149,7 +149,7 @@ def service_conditions(
     )
     words = {key: plain_word(word) for key, word, _ in given}
     faults = [
-        Fault(f"must be one of {', '.join(known)}{nearest(word, list(known))} (got {word!r})", key)
+        Fault(f"must be one of {', '.join(known)}{nearest(word, list(known))} (got {quoted(word)})", key)
         for key, word, known in given
         if words[key] not in known
     ]

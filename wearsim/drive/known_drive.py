@@ -14,7 +14,7 @@ from wearsim.chain.service_conditions import (
     plain_word,
     service_conditions,
 )
-from wearsim.errors import Fault
+from wearsim.errors import Fault, quoted
 from wearsim.quantities import either
 
 _SAFETY = 20.0
@@ -25,7 +25,7 @@ def _whole(least: int, most: int) -> Callable[[str], int]:
     def _read(text: str) -> int:
         digits = text.strip()
         if not (digits.isascii() and digits.isdecimal() and least <= float(digits) <= most):
-            raise ValueError(f"must be a whole number from {least} to {most} (got {text!r})")
+            raise ValueError(f"must be a whole number from {least} to {most} (got {quoted(text)})")
         return int(digits)
 
     return _read
@@ -36,7 +36,7 @@ def _quantity(unit: str, most: float = math.inf) -> Callable[[str], float]:
         number = _number(text, unit)
         if not (0.0 < number <= most and math.isfinite(number)):
             end = f" and at most {most:g}" if math.isfinite(most) else ""
-            raise ValueError(f"must be a number above 0{end} (got {text!r})")
+            raise ValueError(f"must be a number above 0{end} (got {quoted(text)})")
         return number
 
     return _read
@@ -51,7 +51,7 @@ def _number(text: str, unit: str) -> float:
     try:
         return convert(text, unit)
     except ValueError as error:
-        raise ValueError(f"{error} (got {text!r})") from None
+        raise ValueError(f"{error} (got {quoted(text)})") from None
 
 
 def is_plain(text: str) -> bool:
@@ -67,7 +67,9 @@ def _word(words: tuple[str, ...]) -> Callable[[str], str]:
     def _read(text: str) -> str:
         found = plain_word(text)
         if found not in words:
-            raise ValueError(f"must be one of {', '.join(words)} (got {text!r}){nearest(text, list(words))}")
+            raise ValueError(
+                f"must be one of {', '.join(words)} (got {quoted(text)}){nearest(text, list(words))}"
+            )
         return found
 
     return _read

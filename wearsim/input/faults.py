@@ -9,7 +9,7 @@ from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
-from wearsim.errors import CaseError, Fault
+from wearsim.errors import CaseError, Fault, quoted
 from wearsim.input.table import CHOSEN, Table, is_number, without_numbers
 
 _MARK = "\x00wearsim\x00"
@@ -168,7 +168,7 @@ def _message(entry: dict[str, Any], key: str, names: list[str]) -> str:
         allowed = [part.strip("' ") for part in str(entry["ctx"]["expected"]).split(" or ")]
         allowed = [word.strip("' ") for part in allowed for word in part.split(",")]
         hint = _meant(got, allowed)
-    return f"{text} (got {_shown(got)}){hint}"
+    return f"{text} (got {quoted(got)}){hint}"
 
 
 _INVOLUTE = re.compile(r"involut|evolvent", re.IGNORECASE)
@@ -187,13 +187,6 @@ def _length_message(found: Mapping[str, Any], kind: str) -> str:
     word, count = ("least", found["min_length"]) if kind == "too_short" else ("most", found["max_length"])
     one, many = ("key", "keys") if found["field_type"] == "Dictionary" else ("value", "values")
     return f"must hold at {word} {count} {one if count == 1 else many} (holds {found['actual_length']})"
-
-
-def _shown(value: object) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _similar(key: str, names: list[str]) -> str:

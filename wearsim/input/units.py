@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema
 
+from wearsim.input.texts import check_characters
 from wearsim.quantities import quantities
 
 if TYPE_CHECKING:
@@ -23,6 +24,12 @@ _NUMBER_AND_UNIT = re.compile(
     r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:/([1-9]\d*))?\s*([^\d\s.,].*?)\s*"
 )
 _POWER = re.compile(r"\b(mm|cm|m|in|inch|ft)([234])\b")
+_RAISED = re.compile(r"(?<=[^\W\d_])(?:\d|\s*\*\*\s*(?:[+-]?\d|\([+-]?\d\)))(?!\d)")
+"""A digit behind the name of a unit: of the name, or the power to which it is raised."""
+
+_LONGEST = 100
+"""Characters of a number and its unit."""
+
 _ANGLES = ("revolution", "turn", "radian", "degree")
 
 
@@ -52,6 +59,11 @@ def convert(text: str, unit: str) -> float:
     >>> convert("897.5999999999999 N", "N")
     897.5999999999999
     """
+    if len(text) > _LONGEST:
+        raise ValueError(
+            f"must be one number and its unit in at most {_LONGEST} characters, has {len(text)}: shorten it"
+        )
+    check_characters(text)
     if not text.strip(" +-.eE0123456789"):
         raise ValueError(f"give a number without quotes, or with a unit such as '1 {unit}'")
     found = _NUMBER_AND_UNIT.fullmatch(text)
@@ -65,7 +77,7 @@ def _converted(number: float, given: str, unit: str) -> float:
     import pint
 
     try:
-        units = _registry().parse_units(_POWER.sub(r"\1^\2", given))
+        units = _registry().parse_units(_checked_powers(_POWER.sub(r"\1^\2", given)))
         converted = float(_registry().Quantity(number, units).to(unit).magnitude)
     except pint.DimensionalityError:
         needed = "one of force, such as N or kN" if unit == "N" else f"convertible to {unit}"
@@ -81,6 +93,18 @@ def _converted(number: float, given: str, unit: str) -> float:
         return number
     # Fifteen digits, so that "0.0254 m" and 25.4 are the same number.
     return float(f"{converted:.15g}")
+
+
+def _checked_powers(given: str) -> str:
+    """Return a unit whose names are raised to whole numbers of one digit; raise for one with other numbers.
+
+    A power of a power, or one of a number, may take for ever to calculate.
+    """
+    from pint.util import string_preprocessor
+
+    if re.search(r"\d", _RAISED.sub("", string_preprocessor(given))):
+        raise ValueError
+    return given
 
 
 def in_unit_of(key: str, value: Any) -> Any:

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from wearsim.catalogue.catalogues import MOST_STRANDS, USUAL_CONDITION, WearCondition, wear_conditions
-from wearsim.errors import CaseError, Fault, Range
+from wearsim.errors import CaseError, Fault, Range, quoted
 
 SERIES = {"A": "ISO606-A/ANSI B29.1", "B": "ISO606-B", "H": "ISO606-H", "GOST": "GOST13568"}
 """Series of the catalogue by the word that one chooses it with."""
@@ -135,7 +135,7 @@ def requirement_faults(given: Mapping[str, Any]) -> list[Fault]:
     for word in given.get("series", ()):
         if word not in SERIES:
             faults.append(
-                Fault(f"must be of {', '.join(SERIES)} (got {word!r}): choose among them", "series")
+                Fault(f"must be of {', '.join(SERIES)} (got {quoted(word)}): choose among them", "series")
             )
     if sound.get("centre") is not None:
         faults += [

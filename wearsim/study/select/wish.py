@@ -7,7 +7,7 @@ from typing import Any
 
 from wearsim.catalogue.catalogues import wear_conditions
 from wearsim.chain.service_conditions import service_conditions
-from wearsim.errors import CaseError, Fault
+from wearsim.errors import CaseError, Fault, quoted
 from wearsim.study.select.model import Price
 from wearsim.study.select.price_file import read_prices
 from wearsim.study.select.requirements import DriveRequirements, requirement_faults
@@ -100,7 +100,7 @@ def _numbers(texts: Mapping[str, str | None], faults: list[Fault]) -> dict[str, 
         try:
             value = _number(text, unit)
         except ValueError as error:
-            faults.append(Fault(f"{error} (got {text!r})", "", option))
+            faults.append(Fault(f"{error} (got {quoted(text)})", "", option))
             continue
         if name in _WHOLE and value.is_integer():
             found[name] = int(value)
@@ -131,6 +131,6 @@ def _strands(text: str, faults: list[Fault]) -> dict[str, int]:
     try:
         return {"strands_min": int(low), "strands_max": int(high if dash else low)}
     except ValueError:
-        message = f"must be a whole number or two with a dash between, such as 1-3 (got {text!r})"
+        message = f"must be a whole number or two with a dash between, such as 1-3 (got {quoted(text)})"
         faults.append(Fault(f"{message}: correct it", "", "--strands"))
         return {}
