@@ -340,12 +340,12 @@ speed_rpm = 300
         ),
         (('name = "roll"', 'role = "driver"'), 9, "one sprocket must be 'driven' (got 'driver', 'driver')"),
         (('name = "roll"', 'name = "driver"'), 9, "different names"),
+        (('name = "roll"', 'name = " roll"'), 9, "must be without leading or trailing blanks (got ' roll')"),
         (
-            ('name = "roll"', 'name = " roll"'),
+            ('name = "roll"', 'name = "ro\\nll"'),
             9,
-            "must be one line without leading or trailing blanks (got ' roll')",
+            "must be one line without control characters, holds U+000A",
         ),
-        (('name = "roll"', 'name = "ro\\nll"'), 9, "must be one line without leading or trailing blanks"),
         (
             ('name = "roll"', 'name = "=1+1"'),
             9,

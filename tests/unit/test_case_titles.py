@@ -1,5 +1,6 @@
 """The title above an answer is true of the input that was used."""
 
+import re
 import tomllib
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import pytest
 
 from wearsim.cli.init import new_case
 from wearsim.drive.load_case import load_case
+from wearsim.errors import CaseError
 from wearsim.input.document import CaseText
 from wearsim.page.answers import edited_case
 from wearsim.page.case_file import CaseFile, new_file
@@ -106,3 +108,53 @@ def test_sweep_tells_what_is_set_in_its_case(tmp_path):
     )
     assert load_sweep(path).title == "Speeds"
     assert load_sweep(path, ["sprocket.teeth=25"]).title == "Speeds, with sprocket.teeth = 25"
+
+
+@pytest.mark.parametrize(
+    ("title", "words"),
+    [
+        ("x" * 201, "must have at most 200 characters"),
+        ("Hoist\x07", "holds U+0007: remove it"),
+        ("\x1b[31mHoist", "holds U+001B"),
+        ("Hoist\x00", "holds U+0000"),
+        ("Hoist\u202e", "holds U+202E"),
+        ("Hoist\n2", "holds U+000A"),
+        ("Hoist\u2028", "holds U+2028"),
+    ],
+)
+def test_title_is_one_line_that_can_be_read(title, words):
+    chain = tomllib.loads(OILED.read_text(encoding="utf-8"))
+    for tables in (chain, GEARS):
+        with pytest.raises(CaseError, match=re.escape(words)):
+            load_case({**tables, "title": title})
+    with pytest.raises(CaseError, match=re.escape(words)):
+        load_sweep({"format_version": 1, "title": title, "case": str(OILED), "grid": {"sprocket.teeth": [9]}})
+
+
+@pytest.mark.parametrize("length", [180, 200])
+def test_title_that_tells_what_is_set_is_no_longer_than_one_may_be(tmp_path, length):
+    path = tmp_path / "a.toml"
+    tables = {**tomllib.loads(OILED.read_text(encoding="utf-8")), "title": "x" * length}
+    save_designs(tmp_path, {path.name: ""}, Design("a", tables, {}, ("sprocket.teeth",), ((25,),)))
+    whole = "x" * length + ", with sprocket.teeth = 25"
+    assert load_case(path).title == f"{whole[:197]}..."
+
+
+def test_unseen_characters_that_are_set_are_named_once():
+    with pytest.raises(CaseError, match="no such wear condition") as found:
+        load_case(OILED, ["wear.condition=oiled\x1b"])
+    assert len(found.value.faults) == 1
+
+
+@pytest.mark.parametrize("key", ["maintenance.currency", "joint.source"])
+def test_other_texts_of_answers_are_lines_too(key):
+    with pytest.raises(CaseError, match="without control characters") as found:
+        load_case(
+            OILED, [f"{key}=a\x1b", "maintenance.chain_price=1", "joint.specific_wear_rate_mm2_per_N=1e-10"]
+        )
+    assert f"--set {key}" in str(found.value)
+
+
+def test_values_of_a_sweep_are_lines_too():
+    with pytest.raises(CaseError, match="holds U\\+001B"):
+        load_sweep({"format_version": 1, "case": str(OILED), "grid": {"wear.condition": ["a\x1b", "b"]}})

@@ -4,6 +4,7 @@ import json
 import math
 import re
 from dataclasses import replace
+from datetime import date
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ import shapely
 import wearsim
 from tests import drives
 from wearsim.chain.drive_layout import DriveLayout, layout_with_links
+from wearsim.errors import CaseError
 from wearsim.files import file_names
 from wearsim.geometry.scene import Circle, Label, Scene, line
 from wearsim.mechanisms.wrap.scene import roller_places, wrap_scene
@@ -25,6 +27,7 @@ from wearsim.report.html import page_content as page
 from wearsim.report.html import page_writer
 from wearsim.report.html.margins import margins
 from wearsim.report.html.page_writer import save_report
+from wearsim.report.html.paper import SheetHead
 from wearsim.report.html.run_charts import along_chart, history_chart, lives_chart
 from wearsim.report.html.sketch import sketch
 from wearsim.report.html.tooth_chart import tooth_charts
@@ -322,3 +325,9 @@ def test_a_slack_layout_is_drawn_closed():
     places = roller_places(layout)
     ends = math.dist(places[0], places[-1])
     assert ends == pytest.approx(12.7, rel=0.05)
+
+
+@pytest.mark.parametrize(("key", "text"), [("author", "me\x1b"), ("checked_by", "x" * 201)])
+def test_texts_of_a_head_are_short_lines(key, text):
+    with pytest.raises(CaseError, match=f"--{key.replace('_', '-')}: must be one line of at most 200"):
+        SheetHead(date(2026, 3, 31), **{key: text})

@@ -157,8 +157,8 @@ def _check_names(wheels: Sequence[DriveWheel], faults: Faults) -> None:
     taken: set[str] = set()
     for number, wheel in enumerate(wheels, start=1):
         key = f"sprocket.{number}.name"
-        if wheel.name != wheel.name.strip() or not wheel.name.isprintable():
-            faults.add(key, f"must be one line without leading or trailing blanks (got {wheel.name!r})")
+        if wheel.name != wheel.name.strip():
+            faults.add(key, f"must be without leading or trailing blanks (got {wheel.name!r})")
         if wheel.name.startswith(("=", "+", "-", "@")):
             faults.add(
                 key, f"must not begin with =, +, - or @, like a spreadsheet formula (got {wheel.name!r})"

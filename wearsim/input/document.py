@@ -21,6 +21,7 @@ from wearsim.input.faults import Faults
 from wearsim.input.giving_way import remove_alternatives
 from wearsim.input.named_files import file_paths, outside_fault
 from wearsim.input.table import CalculationTables, Table
+from wearsim.input.texts import in_line
 from wearsim.input.units import plain_tables
 
 
@@ -111,14 +112,14 @@ def retitled(tables: Mapping[str, Any], written: Mapping[str, Any]) -> dict[str,
     'Hoist, with sprocket.teeth = 25'
     """
     title, now, before = tables.get("title"), dict(leaves(tables)), dict(leaves(written))
-    if not isinstance(title, str) or not title or title != written.get("title"):
+    if not isinstance(title, str) or not title or title != written.get("title") or title != in_line(title):
         return dict(tables)
     changes = {
         "with": [f"{key} = {_shown(key, now[key])}" for key in now if now[key] != before.get(key)],
         "without": [key for key in before if key not in now],
     }
     told = [f", {word} {', '.join(keys)}" for word, keys in changes.items() if keys]
-    return {**tables, "title": "".join([title, *told])}
+    return {**tables, "title": in_line("".join([title, *told]))}
 
 
 def leaves(tables: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:

@@ -9,6 +9,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Fiel
 from pydantic_core import PydanticCustomError
 
 from wearsim.catalogue.catalogues import nearest
+from wearsim.input.texts import Title, check_characters
 from wearsim.quantities import input_quantities
 
 
@@ -134,7 +135,7 @@ class CalculationTables(Table):
     """The tables of an input file that is about no drive."""
 
     format_version: FormatVersion
-    title: str = ""
+    title: Title = ""
 
 
 def _finite(value: object) -> object:
@@ -154,7 +155,9 @@ Above0 = Annotated[int | float, BeforeValidator(_finite), Field(gt=0.0)]
 
 def choice(value: object) -> object:
     """Return a value that is no list, or raise."""
-    if isinstance(value, bool | str):
+    if isinstance(value, str):
+        return check_characters(value)
+    if isinstance(value, bool):
         return value
     try:
         return _finite(value)

@@ -15,6 +15,7 @@ from wearsim.errors import CaseError, Fault
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.document import load_calculation
 from wearsim.input.table import CalculationTables, Finite, Table
+from wearsim.input.texts import SEEN, in_line
 from wearsim.input.units import Positive, PositiveNumber
 
 BAND = 2.0
@@ -41,7 +42,7 @@ class ReadingTable(Table):
     """What was measured, when and by whom."""
 
     origin: Literal["photograph", "measured", "rendered"]
-    contributor: Annotated[str, Field(min_length=1)] = ANONYMOUS
+    contributor: Annotated[str, Field(min_length=1, max_length=200), SEEN] = ANONYMOUS
     date: Annotated[date, BeforeValidator(_day)]
     licence: Literal["CC0-1.0"]
     time_hours: Positive
@@ -157,7 +158,7 @@ def reading_toml(
     for line in _HEAD:
         document.add(tomlkit.comment(line))
     document.add("format_version", 1)
-    document.add("title", case.title)
+    document.add("title", in_line(case.title))
     document.add("reading", reading)
     document.add("conditions", tomlkit.item(case_conditions(case)))
     return tomlkit.dumps(document)

@@ -28,6 +28,7 @@ from wearsim.case.keys.wear_tables import (
     WearTable,
 )
 from wearsim.input.table import FormatVersion, Table, describe
+from wearsim.input.texts import Title
 from wearsim.lubrication.keys import LubricationTable, with_wear_condition
 
 __all__ = [
@@ -75,7 +76,7 @@ class CaseTables(Table):
         return with_wear_condition(tables)
 
     format_version: FormatVersion
-    title: str = ""
+    title: Title = ""
     chain: ChainTable
     sprocket: SprocketTable | None = None
     drive: DriveTable | None = None

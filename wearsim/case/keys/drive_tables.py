@@ -9,6 +9,7 @@ from wearsim.catalogue.catalogues import MOST_STRANDS, chains
 from wearsim.catalogue.chain_names import chain_name, known_chain_name
 from wearsim.geometry.forms import BETWEEN_FORMS, TOOTH_FORMS
 from wearsim.input.table import Table, all_differ, others_of
+from wearsim.input.texts import SEEN
 from wearsim.input.units import NotNegative, Positive, PositiveNumber, Series, Signed, Speed
 
 
@@ -56,7 +57,7 @@ class JointTable(Table):
     reference_speed_rpm: Positive | None = None
     reference_pitch_mm: Positive | None = None
     band_factor: Annotated[PositiveNumber, Field(ge=1.0)] | None = None
-    source: Annotated[str, Field(min_length=1, max_length=200)] | None = None
+    source: Annotated[str, Field(min_length=1, max_length=200), SEEN] | None = None
     pitch: Literal["alternating", "uniform"] | None = None
 
     @field_validator("condition")
@@ -317,7 +318,7 @@ class CogTable(Table):
 class PlaceTable(Table):
     """What a sprocket of a drive has beside the keys of the only one of a case: its place in the loop."""
 
-    name: Annotated[str, Field(min_length=1, max_length=60)] | None = None
+    name: Annotated[str, Field(min_length=1, max_length=60), SEEN] | None = None
     role: Literal["driver", "driven", "idler"] | None = None
     position_mm: Series | None = None
     outside: bool | None = None

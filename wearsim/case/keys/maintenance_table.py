@@ -6,6 +6,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from wearsim.input.table import Table
+from wearsim.input.texts import SEEN
 from wearsim.input.units import Positive, PositiveNumber
 
 _MAX_PERCENT = 10.0
@@ -43,7 +44,7 @@ class MaintenanceTable(Table):
     sprocket_price: PositiveNumber | None = None
     downtime_hours: Positive | None = None
     downtime_cost_per_hour: PositiveNumber | None = None
-    currency: Annotated[str, Field(min_length=1, max_length=8)] | None = None
+    currency: Annotated[str, Field(min_length=1, max_length=8), SEEN] | None = None
 
     @property
     def stop_cost(self) -> float:

@@ -205,7 +205,6 @@ class GearLubricationTable(LubricationTable):
 class GearTables(CalculationTables):
     """The whole file."""
 
-    title: str = ""
     gear: GearTable
     material: GearMaterialsTable = GearMaterialsTable()
     mechanism: GearMechanismTable = GearMechanismTable()

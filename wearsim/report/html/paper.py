@@ -6,6 +6,9 @@ from datetime import date
 
 from markupsafe import Markup
 
+from wearsim.errors import CaseError, Fault
+from wearsim.input.texts import in_line
+
 _FOOT = (
     "@page {{ @bottom-left {{ content: {text}; {look} }} "
     '@bottom-right {{ content: "page " counter(page) " of " counter(pages); white-space: nowrap; {look} }} }}'
@@ -23,6 +26,17 @@ class SheetHead:
     drawing: str = ""
     revision: str = ""
     checked_by: str = ""
+
+    def __post_init__(self) -> None:
+        """Raise for texts that do not fit into a row of a sheet."""
+        message = "must be one line of at most 200 characters without control characters: correct it"
+        faults = [
+            Fault(message, "", f"--{label.replace(' ', '-')}")
+            for label, text in self._named
+            if text != in_line(text)
+        ]
+        if faults:
+            raise CaseError(faults)
 
     @property
     def rows(self) -> list[tuple[str, str]]:
