@@ -158,6 +158,11 @@ def test_page_has_all_columns_laws_and_constants():
     [
         ("a,x,1,", ":3: cycles: ", "must be a number above 0"),
         ("a,1,-2,", ":3: wear_um: ", "set censored = below"),
+        (
+            "a\x1b,1,2,",
+            ":3: series: ",
+            "must be one line of at most 200 characters without control characters",
+        ),
         ("a,1,nan,", ":3: wear_um: ", "must be a number above 0"),
         (",1,2,", ":3: series: ", "must name what was read"),
         ("a,1,2,perhaps", ":3: censored: ", "must be above, below or empty"),

@@ -159,6 +159,7 @@ HOURS = "time_hours,quantity,value\n500,elongation_percent,0.5\n"
     ("log", "message"),
     [
         (HOURS, "service.start_date: a plan by days needs it"),
+        (HOURS.replace("0.5", "9"), "service.start_date: a plan by days needs it"),  # before it calculates
         (LOG.replace("large", "huge"), "must be one of small, large (got 'huge')"),
         (LOG.replace("0,01;", "0,01;large"), "must be new where a sprocket is named"),
     ],

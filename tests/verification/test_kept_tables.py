@@ -173,6 +173,24 @@ def test_times_before_the_odometer_of_the_new_chain_are_named(state):
         state("distance_km,quantity,value\n1000,new,\n900,elongation_percent,0.6\n")
 
 
+LONG = PLAIN + "512,chain_length_mm,1277.62,100,0.5\n" * 999
+
+
+def test_a_table_that_would_take_for_ever_is_refused(state):
+    with pytest.raises(wearsim.CaseError, match="it has 1001 rows, 1000 are the most: give one mean"):
+        state(LONG)
+
+
+def test_comments_and_empty_lines_are_no_rows(state):
+    assert lives(state("# by hand\n" * 999 + PLAIN + ",,,,\n\n" * 999)) == lives(state(PLAIN))
+
+
+@pytest.mark.parametrize("name", ["a\x1b", "a" * 201])
+def test_cells_are_short_lines(state, name):
+    with pytest.raises(wearsim.CaseError, match=r"readings.csv:2: must be one line of at most 200 char"):
+        state(f"time_hours,quantity,value,chain\n0,new,,{name}\n")
+
+
 def test_calibrate_reads_the_same_tables(tmp_path):
     """Baseline, inches, an odometer and semicolons give the coefficient of the plain table."""
     pytest.importorskip("pandera", reason="pandera is not installed")

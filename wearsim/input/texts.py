@@ -38,6 +38,19 @@ def in_line(text: str) -> str:
     return seen if len(seen) <= _LONGEST else f"{seen[: _LONGEST - 3]}..."
 
 
+def line_fault(text: str) -> str:
+    r"""Return what is wrong with a text that may be as long as a title; empty where nothing is.
+
+    Examples
+    --------
+    >>> line_fault("Hoist"), line_fault("Hoist\a")
+    ('', 'must be one line of at most 200 characters without control characters: correct it')
+    """
+    if text == in_line(text):
+        return ""
+    return f"must be one line of at most {_LONGEST} characters without control characters: correct it"
+
+
 def _is_unseen(character: str) -> bool:
     return unicodedata.category(character).startswith(_UNSEEN)
 

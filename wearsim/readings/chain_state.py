@@ -75,7 +75,7 @@ class ChainState:
 
     def day(self, hours: float) -> str:
         """Return the day after so many hours since the chain was new; empty where no day is known."""
-        start, service = _start(self.case, self.log), self.case.inputs.get("service") or {}
+        start, service = first_day(self.case, self.log), self.case.inputs.get("service") or {}
         if start is None or "hours_per_day" not in service:
             return ""
         return day_after(start, hours / service["hours_per_day"])
@@ -90,8 +90,22 @@ class ChainState:
         return next(one for one in self.quantiles if one.name == name)
 
 
+def log_of_chain(case: Case | DriveCase, path: Path, usual_error: float) -> ChainLog:
+    """Return what a table says of the chain of a case; a reading without an error has the usual one [%]."""
+    first = case.chain_case
+    if not first.drive.wear_coefficients:
+        text = f"readings of a chain need one that wraps the sprocket: {instead_of(first)}"
+        raise CaseError([Fault(text, "mechanism.kind", first.name)])
+    return read_chain_log(path, first.inputs, wrap_of(first).chain.pitch, usual_error)
+
+
 def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -> ChainState:
-    """Return the state of a chain from a table of dated readings.
+    """Return the state of a chain from a table of dated readings, as `logged_state` of its log."""
+    return logged_state(case, log_of_chain(case, path, usual_error))
+
+
+def logged_state(case: Case | DriveCase, log: ChainLog) -> ChainState:
+    """Return the state of a chain from its log.
 
     The elongation is the case's own rate times the running time times one factor on the coefficient.
     Its distribution is the band of the case, as 90 % of a log-normal one, times the likelihood of
@@ -101,23 +115,16 @@ def chain_state(case: Case | DriveCase, path: Path, usual_error: float = 0.05) -
     ----------
     case : Case or DriveCase
         With a chain that wraps its sprocket, or a whole drive.
-    path : Path
-        CSV file of readings.
-    usual_error : float
-        Standard deviation of a reading that states none [%].
+    log : ChainLog
+        Its readings and relubrications.
 
     Raises
     ------
     CaseError
-        What is wrong with case or readings, or a reading beyond the limit that no other one contradicts.
+        A reading beyond the limit that no other one contradicts.
     """
     first = case.chain_case
-    if not first.drive.wear_coefficients:
-        text = f"readings of a chain need one that wraps the sprocket: {instead_of(first)}"
-        raise CaseError([Fault(text, "mechanism.kind", first.name)])
-    drive = wrap_of(first)
-    limit = 100.0 * drive.joint.elongation_limit
-    log = read_chain_log(path, first.inputs, drive.chain.pitch, usual_error)
+    limit = 100.0 * wrap_of(first).joint.elongation_limit
     as_logged = {name: relubricated(case, its) for name, its in log.lubricated.items()}
     return _state(first, as_logged, log, limit)
 
@@ -200,14 +207,14 @@ def _left(case: Case, log: ChainLog, of_chains: Mapping[str, tuple[float, ...]])
     if log.rotation is not None:
         of_all = tuple(map(math.fsum, zip(*of_chains.values(), strict=True)))
         yield Quantiles("remaining_hours_of_all", of_all)
-    start = _start(case, log)
+    start = first_day(case, log)
     if start is not None:
         ends = [log.machine + one for one in of_all]
         each = service["hours_per_day"]
         yield Quantiles("end_date", tuple(day_after(start, one / each) for one in ends))
 
 
-def _start(case: Case, log: ChainLog) -> date | None:
+def first_day(case: Case, log: ChainLog) -> date | None:
     """Return the day on which the chain was new; None where it is not known."""
     given = (case.inputs.get("service") or {}).get("start_date")
     return log.time.start or (date.fromisoformat(given) if given else None)

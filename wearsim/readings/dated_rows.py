@@ -1,6 +1,7 @@
 """Rows of a table of readings, and when they were made: running hours, km or days."""
 
 import csv
+import io
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -14,6 +15,7 @@ from wearsim.errors import CaseError, Fault
 from wearsim.files import given_text, temporary_folder
 from wearsim.input.csv_tables import header_faults
 from wearsim.input.named_files import allow_outside
+from wearsim.input.texts import line_fault
 from wearsim.quantities import grouped
 from wearsim.readings.day_format import iso_days
 from wearsim.readings.kept_tables import (
@@ -42,6 +44,9 @@ CHAINS, SPROCKETS = "chain", "sprocket"
 """Columns that name the chain of a row, of several in rotation, or the sprocket that a row is of."""
 
 _MOST_HOURS = 1e9
+
+_MOST_ROWS = 1000
+"""Of a table: more than any log has, and few enough that every command answers within seconds."""
 
 
 @dataclass(frozen=True)
@@ -134,9 +139,7 @@ def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]
         faults.append(Fault(text, "", str(path), head))
     rows = [(line, cells) for line, cells in lines[1:] if any(cells)]
     faults += [
-        Fault(f"needs {len(names)} values, has {len(cells)}", "", str(path), line)
-        for line, cells in rows
-        if len(cells) != len(names)
+        Fault(text, "", str(path), line) for line, cells in rows for text in _row_faults(cells, len(names))
     ]
     if faults:
         raise CaseError(faults)
@@ -145,10 +148,18 @@ def read_dated_rows(path: Path, required: Sequence[str], optional: Sequence[str]
     return DatedRows(str(path), time, head, tuple(_with_days(named, str(path)) if time == DATE else named))
 
 
+def _row_faults(cells: Sequence[str], count: int) -> Iterator[str]:
+    """Give what is wrong with a row, whatever its columns are."""
+    if len(cells) != count:
+        yield f"needs {count} values, has {len(cells)}"
+    yield from filter(None, map(line_fault, cells))
+
+
 def _lines(path: Path) -> list[Line]:
     """Return the cells of every line of a file."""
     try:
         text = given_text(path)
+        _check_rows(text)
         lines = split_lines(text)
     except (OSError, ValueError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
@@ -157,6 +168,16 @@ def _lines(path: Path) -> list[Line]:
     if faults:
         raise CaseError(faults)
     return lines
+
+
+def _check_rows(text: str) -> None:
+    """Raise for a table that is too long to be taken apart, let alone to be calculated with."""
+    lines = (line for line in io.StringIO(text) if not line.startswith("#") and line.strip("\t\n ,;"))
+    rows = sum(1 for _ in lines) - 1
+    if rows > _MOST_ROWS:
+        raise ValueError(
+            f"it has {rows} rows, {_MOST_ROWS} are the most: give one mean for readings of a day"
+        )
 
 
 def _with_days(rows: Sequence[tuple[int, dict[str, str]]], file: str) -> list[tuple[int, dict[str, str]]]:

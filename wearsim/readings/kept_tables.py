@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
+from wearsim.errors import quoted
 from wearsim.input.units import convert
 
 Line = tuple[int, list[str]]
@@ -80,13 +81,13 @@ def decimal_faults(text: str, lines: Sequence[Line]) -> Iterator[tuple[int, str,
                 line,
                 "",
                 "numbers must have decimal points or decimal commas, but this table has both: others have "
-                f"{mark} (got {cell!r})",
+                f"{mark} (got {quoted(cell)})",
             )
     for line, cells in lines[1:]:
         for name, cell in zip(names, cells, strict=False):
             if name in _UNITS and not commas and _THOUSANDS.fullmatch(cell):
                 whole = cell.replace(".", "")
-                yield line, name, f"may be {whole} or {cell}0: write one of these (got {cell!r})"
+                yield line, name, f"may be {whole} or {cell}0: write one of these (got {quoted(cell)})"
 
 
 def in_units_read(cells: Mapping[str, str]) -> dict[str, str]:

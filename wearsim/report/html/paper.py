@@ -7,7 +7,7 @@ from datetime import date
 from markupsafe import Markup
 
 from wearsim.errors import CaseError, Fault
-from wearsim.input.texts import in_line
+from wearsim.input.texts import line_fault
 
 _FOOT = (
     "@page {{ @bottom-left {{ content: {text}; {look} }} "
@@ -29,11 +29,10 @@ class SheetHead:
 
     def __post_init__(self) -> None:
         """Raise for texts that do not fit into a row of a sheet."""
-        message = "must be one line of at most 200 characters without control characters: correct it"
         faults = [
-            Fault(message, "", f"--{label.replace(' ', '-')}")
+            Fault(wrong, "", f"--{label.replace(' ', '-')}")
             for label, text in self._named
-            if text != in_line(text)
+            if (wrong := line_fault(text))
         ]
         if faults:
             raise CaseError(faults)

@@ -6,9 +6,10 @@ from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
-from wearsim.errors import CaseError, Fault
+from wearsim.errors import CaseError, Fault, quoted
 from wearsim.files import given_lines
 from wearsim.input.csv_tables import header_faults
+from wearsim.input.texts import line_fault
 from wearsim.study.judge.falling import WearFall, falls
 from wearsim.study.judge.wear_series import WearReading, WearSeries, wear_series
 
@@ -112,6 +113,11 @@ def _cell_faults(texts: dict[str, str], exposure: str, wear: str) -> list[tuple[
     found = []
     if not texts["series"]:
         found.append(("series", "must name what was read (got ''): name it"))
+    found += [
+        (column, wrong)
+        for column in ("series", "environment")
+        if (wrong := line_fault(texts.get(column, "")))
+    ]
     for column in (exposure, wear, *NUMBERS):
         text = texts.get(column)
         optional = column == "reading_error"
@@ -123,14 +129,16 @@ def _cell_faults(texts: dict[str, str], exposure: str, wear: str) -> list[tuple[
                 if column == wear
                 else "correct it"
             )
-            found.append((column, f"must be a number above 0 and at most {_MOST:g} (got {text!r}): {hint}"))
+            found.append(
+                (column, f"must be a number above 0 and at most {_MOST:g} (got {quoted(text)}): {hint}")
+            )
     if texts.get("censored", "") not in _CENSORED:
         got = texts["censored"]
-        found.append(("censored", f"must be above, below or empty (got {got!r}): correct it"))
+        found.append(("censored", f"must be above, below or empty (got {quoted(got)}): correct it"))
     if texts.get("environment") == "":
         found.append(("environment", "must be named in every row (got ''): name it"))
     found += [
-        (column, f"must be 0 or 1 (got {texts[column]!r}): correct it")
+        (column, f"must be 0 or 1 (got {quoted(texts[column])}): correct it")
         for column in YES_OR_NO
         if texts.get(column, "0") not in ("0", "1")
     ]

@@ -15,7 +15,8 @@ from wearsim.drive.part_life import simulate
 from wearsim.drive.replacement_rules import Prices
 from wearsim.errors import CaseError, Fault
 from wearsim.quantities import grouped
-from wearsim.readings.chain_state import ChainState, chain_state
+from wearsim.readings.chain_log import ChainLog
+from wearsim.readings.chain_state import ChainState, first_day, log_of_chain, logged_state
 from wearsim.readings.teeth_as_read import TEETH_WORDS, Teeth, teeth_warning
 from wearsim.result.ends import CHAIN, PartEnd
 from wearsim.runner.in_threads import Progress
@@ -85,8 +86,9 @@ def year_plan(
     ContactError, ConvergenceError
         The run of a sprocket fails.
     """
-    state = chain_state(given, path, error)
-    _check_days(state)
+    log = log_of_chain(given, path, error)
+    _check_days(given.chain_case, log)
+    state = logged_state(given, log)
     ends = _ends(drive_as_read(given, state, teeth), progress)
     _check_names(state, ends)
     parts = _parts(state, ends)
@@ -106,15 +108,15 @@ def year_plan(
     )
 
 
-def _check_days(state: ChainState) -> None:
+def _check_days(case: Case, log: ChainLog) -> None:
     """Raise where hours have no days."""
-    service = state.case.inputs.get("service") or {}
+    service = case.inputs.get("service") or {}
     if "hours_per_day" not in service:
         text = "a plan of twelve months needs it, or --set service.hours_per_day=VALUE"
-        raise CaseError([Fault(text, "service.hours_per_day", state.case.name)])
-    if not state.day(0.0):
+        raise CaseError([Fault(text, "service.hours_per_day", case.name)])
+    if first_day(case, log) is None:
         text = "a plan by days needs it, or a log by date; or --set service.start_date=DAY"
-        raise CaseError([Fault(text, "service.start_date", state.case.name)])
+        raise CaseError([Fault(text, "service.start_date", case.name)])
 
 
 def _check_names(state: ChainState, known: Iterable[str]) -> None:
