@@ -3,7 +3,7 @@
 import contextlib
 import csv
 import errno
-import glob
+import hashlib
 import io
 import os
 import re
@@ -112,7 +112,15 @@ def written(folder: Path) -> set[str]:
     marker = folder / MARKER
     if not marker.is_file():
         return set()
-    return {MARKER, *os.fsdecode(marker.read_bytes()).splitlines()[1:]}
+    try:
+        content = given_bytes(marker, _MOST_MARKER)
+    except OSError as error:
+        raise OutputError(f"{marker}: must be readable: {error.strerror or error}") from None
+    return {MARKER, *os.fsdecode(content).splitlines()[1:]}
+
+
+_MOST_MARKER = 5_000_000
+"""Bytes of a marker: the names of some hundred thousand files."""
 
 
 def check_folder(folder: Path, force: bool) -> None:
@@ -165,7 +173,7 @@ def new_folder(folder: Path, force: bool) -> Iterator[Path]:
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with (
-            tempfile.TemporaryDirectory(prefix=f".{folder.name}.", dir=folder.parent) as beside,
+            tempfile.TemporaryDirectory(prefix=_prefix(folder), dir=folder.parent) as beside,
             _held(Path(beside)),
         ):
             new, old = Path(beside) / "new", Path(beside) / "old"
@@ -218,11 +226,10 @@ def _lock(file: IO[bytes]) -> bool:
 
 def _clear_beside(folder: Path) -> None:
     """Remove what killed writers left beside a folder; what they had moved aside comes back."""
-    prefix = f".{folder.name}."
-    for lock in folder.parent.glob(f"{glob.escape(prefix)}*/{_LOCK}"):
+    for lock in folder.parent.glob(f"{_prefix(folder)}*/{_LOCK}"):
         beside, old = lock.parent, lock.parent / "old"
-        if "." in beside.name.removeprefix(prefix):
-            continue  # Beside another folder.
+        if not lock.is_file():
+            continue  # A pipe would be waited for.
         with contextlib.suppress(OSError), lock.open("rb") as file:
             if not _lock(file):
                 continue
@@ -274,7 +281,7 @@ def write_file(path: Path, content: Content, force: bool) -> None:
 def new_file(path: Path) -> Iterator[IO[bytes]]:
     """Give a file beside a place that takes its name when all of it is written."""
     _clear_left(path)
-    handle, beside = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    handle, beside = tempfile.mkstemp(prefix=_prefix(path), dir=path.parent)
     try:
         with os.fdopen(handle, "wb") as file:
             _lock(file)
@@ -296,7 +303,15 @@ One from later than now was there before the clock was set back.
 
 def left_beside(path: Path) -> list[Path]:
     """Return what writers of a file have beside it, or left there when they were killed."""
-    return list(path.parent.glob(f".{glob.escape(path.name)}.{'[a-z0-9_]' * 8}"))
+    return [left for left in path.parent.glob(f"{_prefix(path)}{'[a-z0-9_]' * 8}") if left.is_file()]
+
+
+def _prefix(path: Path) -> str:
+    """Return how the names begin of what is beside a file or folder while it is written.
+
+    Nobody else chooses such a name, so that what is left can be removed; it fits where a longest name fits.
+    """
+    return f"{MARKER}-{hashlib.sha256(os.fsencode(path.name)).hexdigest()[:12]}-"
 
 
 def _clear_left(path: Path) -> None:

@@ -36,6 +36,15 @@ def test_every_command_stands_in_one_group_with_one_line_and_one_example(cli):
         assert example.split()[:2] == ["wearsim", name.split()[0]]
 
 
+@pytest.mark.parametrize("columns", ["0", "1", "3", "10"])
+def test_help_on_a_narrow_terminal(cli, monkeypatch, columns):
+    """Examples are never broken."""
+    monkeypatch.setenv("COLUMNS", columns)
+    done = cli("--help")
+    assert (done.code, done.err) == (0, "")
+    assert all(example in done.out for commands in COMMAND_GROUPS.values() for example in commands.values())
+
+
 @pytest.mark.parametrize("example", EXAMPLES)
 def test_example_is_a_command_line(example, tmp_path, monkeypatch):
     """Click refuses unknown options, wrong values and arguments that are missing."""

@@ -32,6 +32,13 @@ def test_pipe_and_device_are_no_case(cli, pipe, command):
     refused(cli(command, "/dev/zero"), f"must be a readable file: {NO_FILE}")
 
 
+def test_pipe_is_no_picture(cli, drive, pipe, tmp_path):
+    refused(
+        cli("scan", pipe, "--case", drive(), "--out", tmp_path / "scan"),
+        f"must be a picture, but cannot be opened ({NO_FILE})",
+    )
+
+
 @pytest.mark.parametrize("profile", ["points", "dxf"])
 def test_pipe_is_no_flank(cli, drive, pipe, profile):
     place = pipe.rename(pipe.with_suffix(".dxf")) if profile == "dxf" else pipe
@@ -100,7 +107,10 @@ def test_whole_disk_is_not_walked(cli, drive, monkeypatch):
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("NUMBA_NUM_THREADS", "many"), ("NUMBA_NUM_THREADS", "0"), ("SOURCE_DATE_EPOCH", "yesterday")],
+    [
+        *(("NUMBA_NUM_THREADS", value) for value in ("many", "0", 5000 * "9")),
+        *(("SOURCE_DATE_EPOCH", value) for value in ("yesterday", "253402300800")),
+    ],
 )
 def test_variables_that_libraries_read(cli, drive, monkeypatch, name, value):
     monkeypatch.setenv(name, value)

@@ -44,6 +44,23 @@ def test_closed_pipe_is_141_without_a_word():
     assert (done.returncode, done.stderr) == (141, b"")
 
 
+@pytest.mark.parametrize(
+    ("stream", "code", "message"),
+    [
+        ("<&-", 2, "-: "),
+        (">&-", 2, "standard output: must be open to print to, but is closed: send it to"),
+        ("2>&-", 0, ""),
+        ("<&- 2>&-", 0, ""),
+    ],
+)
+def test_closed_streams(drive, tmp_path, stream, code, message):
+    case = "-" if stream == "<&-" else drive()
+    command = f'"{WEARSIM}" life "{case}" --out "{tmp_path / "out"}" {stream}'
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True)
+    assert (done.returncode, done.stderr[: len(message)]) == (code, message)
+    assert (tmp_path / "out").exists() == (code == 0)
+
+
 @pytest.mark.wide
 @pytest.mark.parametrize("horizon", ["5e4", "3e5"])
 def test_interrupted_run_is_130_and_leaves_nothing(drive, tmp_path, horizon):

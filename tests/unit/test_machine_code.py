@@ -8,6 +8,7 @@ import itertools
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -155,6 +156,13 @@ def test_pipe_and_device_in_place_of_a_file_are_not_waited_for(cache):
         file.unlink()
         file.symlink_to("/dev/zero")
         right(name)
+
+
+def test_large_file_in_place_of_machine_code_is_not_read(tmp_path, monkeypatch):
+    keep(b"machine code", tmp_path / "code.o")
+    os.truncate(tmp_path / "code.o", 3_000_000_000)
+    monkeypatch.setattr(Path, "read_bytes", None)
+    assert kept(tmp_path / "code.o") is None
 
 
 def test_file_that_cannot_be_written_is_left_out(tmp_path):

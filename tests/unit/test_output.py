@@ -1,5 +1,6 @@
 """A place holds the old, the new or nothing."""
 
+import hashlib
 import os
 import stat
 import subprocess
@@ -185,6 +186,48 @@ def writer():
         process.communicate()
 
 
+def beside(path):
+    """Return how the names begin of what is written beside a place."""
+    return f".wearsim-{hashlib.sha256(path.name.encode()).hexdigest()[:12]}-"
+
+
+@pytest.mark.parametrize("name", [".flank.csv.original", ".flank.csv.ab12cd_9", ".flank.csv.bak"])
+def test_what_is_named_like_a_copy_is_of_the_user(tmp_path, name):
+    mine = tmp_path / name
+    mine.write_text("mine")
+    os.utime(mine, (1e9, 1e9))
+    write_file(tmp_path / "flank.csv", "all of it", force=True)
+    assert mine.read_text() == "mine"
+
+
+def test_pipe_beside_is_not_waited_for(tmp_path, not_for_ever):
+    """Whoever may write into a folder can put one there."""
+    folder = tmp_path / f"{beside(tmp_path / 'run')}ab12cd_9"
+    folder.mkdir()
+    for pipe in (tmp_path / f"{beside(tmp_path / 'flank.csv')}ab12cd_9", folder / "writer.lock"):
+        os.mkfifo(pipe)
+        os.utime(pipe, (1e9, 1e9))
+    write_file(tmp_path / "flank.csv", "all of it", force=True)
+    fill(tmp_path / "run")
+    assert (tmp_path / "run" / "history.csv").exists()
+
+
+def test_longest_name_of_a_file(tmp_path):
+    path = tmp_path / f"{251 * 'f'}.csv"
+    write_file(path, "all of it", force=False)
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_marker_without_end_is_not_read(tmp_path):
+    run = tmp_path / "run"
+    fill(run)
+    os.truncate(run / ".wearsim", 3_000_000_000)
+    with pytest.raises(
+        OutputError, match=r"\.wearsim: must be readable: it has 3e\+03 MB, 5 MB are the most"
+    ):
+        fill(run)
+
+
 def test_what_a_killed_process_left_is_cleared_away(tmp_path, writer):
     """A living writer's folder and that of another place stay."""
     run, other = tmp_path / "run", tmp_path / "run.b"
@@ -192,11 +235,11 @@ def test_what_a_killed_process_left_is_cleared_away(tmp_path, writer):
     for process in (writer(run), writer(other)):
         process.kill()
         process.communicate()
-    assert len(list(tmp_path.glob(".run.*"))) == 3
+    assert len(list(tmp_path.glob(".wearsim-*"))) == 3
     fill(run)
-    living, of_other = sorted(tmp_path.glob(".run.*"), key=lambda path: ".run.b" in path.name)
+    (living,), (of_other,) = (list(tmp_path.glob(f"{beside(path)}*")) for path in (run, other))
     assert (living / "new" / "history.csv").read_text() == "killed"
-    assert of_other.name.startswith(".run.b.")
+    assert (of_other / "new").is_dir()
     assert (run / "history.csv").read_text() == "new"
 
 
@@ -248,7 +291,7 @@ def test_folder_without_a_marker_is_not_replaced(tmp_path, name):
 def test_what_a_killed_writer_left_beside_a_file_goes(tmp_path):
     """Also where the clock has been set back since."""
     ends = ("ab12cd_9", "ab12cd_7", "ab12cd_8", "bak")
-    left, later, young, another = (tmp_path / f".flank.csv.{end}" for end in ends)
+    left, later, young, another = (tmp_path / f"{beside(tmp_path / 'flank.csv')}{end}" for end in ends)
     for path in (left, later, young, another):
         path.write_text("half of it")
     os.utime(left, (1e9, 1e9))

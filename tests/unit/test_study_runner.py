@@ -1,6 +1,7 @@
 """The runner of studies: the same numbers wherever they run, and nothing lost."""
 
 import errno
+import hashlib
 import os
 from concurrent.futures import Future
 from contextlib import contextmanager
@@ -246,6 +247,47 @@ def test_no_flipped_bit_is_taken_for_a_life(cases, store):
     assert same(run_study(cases, Threads(1), store), whole)
 
 
+@pytest.mark.parametrize("kind", ["rows", "text", "pipe", "device", "empty"])
+def test_a_shard_that_would_fill_the_memory_is_run_again(cases, store, kind, not_for_ever, monkeypatch):
+    """What is no file, has more rows than cases or longer texts than fit is never read."""
+    import pyarrow
+    from pyarrow import parquet
+
+    whole = run_study(cases, Threads(1), store)
+    (shard, *_) = shards(cases)
+    path = store.path(shard)
+    table = parquet.read_table(path)
+    path.unlink()
+    if kind == "rows":
+        parquet.write_table(pyarrow.concat_tables([table] * 1000), path)
+    elif kind == "text":
+        place = table.column_names.index("warnings")
+        texts = pyarrow.array([20_000_000 * "a"] * (table.num_rows - 1) + [40_000_000 * "b"])
+        parquet.write_table(table.set_column(place, "warnings", texts), path, compression="zstd")
+    elif kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "device":
+        path.symlink_to("/dev/zero")
+    else:
+        path.touch()
+    read = []
+    monkeypatch.setattr(parquet, "read_table", lambda path: read.append(path) or table)
+    assert store.finished(shard) is None
+    assert read == []
+    monkeypatch.undo()
+    assert same(run_study(cases, Threads(1), store), whole)
+
+
+def test_manifest_without_end_is_not_read(cases, store):
+    """A pipe in its place is not waited for, either."""
+    from wearsim.runner.store import open_store
+
+    run_study(cases, Threads(1), store)
+    os.truncate(store.folder / "study.json", 3_000_000_000)
+    with pytest.raises(OutputError, match="must be readable: it has"):
+        open_store(store.folder, cases, {"study": "test"}, True)
+
+
 def test_rows_of_other_cases_are_not_taken(cases, store):
     run_study(cases, Threads(1), store)
     first, second = list(shards(cases))[:2]
@@ -360,6 +402,7 @@ def test_a_folder_whose_maker_was_killed_is_taken(cases, tmp_path, name):
 
     folder = tmp_path / "study"
     folder.mkdir()
-    (folder / f".{name}.0a1b2c3d").write_bytes(b"half")
+    beside = hashlib.sha256(name.encode()).hexdigest()[:12]
+    (folder / f".wearsim-{beside}-0a1b2c3d").write_bytes(b"half")
     opened = open_store(folder, cases, {"study": "test"}, False)
     assert {path.name for path in opened.folder.iterdir()} >= {".wearsim", "study.json"}

@@ -3,6 +3,7 @@
 import errno
 import gc
 import os
+import re
 import signal
 import sys
 import traceback
@@ -17,7 +18,7 @@ from wearsim.cli.completion import use_own_bash
 from wearsim.cli.handbook import commands_of_before
 from wearsim.command.example_group import ExampleGroup
 from wearsim.command.options import BAD_INPUT, common_options, exit_code, show_error, uses_colour
-from wearsim.errors import CaseError, Fault, WearsimError
+from wearsim.errors import CaseError, Fault, WearsimError, quoted
 
 _HELP = """How long will this sprocket last?
 
@@ -86,6 +87,7 @@ def main() -> None:
         if "_WEARSIM_COMPLETE" in os.environ:
             use_own_bash()
             wearsim_command.main(prog_name="wearsim")
+        _open_closed_streams()
         _check_environment()
         _check_working_folder()
         # Not click's own main: it turns a closed pipe into exit code 1.
@@ -110,12 +112,31 @@ def main() -> None:
         sys.exit(_interrupted() if interrupt.seen else _unexpected(error))
 
 
+def _open_closed_streams() -> None:
+    """Open what is closed as empty, so that no file takes its number; raise where nothing can be printed."""
+    prints = sys.stdout is not None
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, Path(os.devnull).open(mode, encoding="utf-8"))  # noqa: SIM115 - stays open
+    if not prints:
+        message = "must be open to print to, but is closed: send it to a file or to /dev/null"
+        raise CaseError([Fault(message, "", "standard output")])
+
+
+_MOST_THREADS = 100_000
+_LAST_SECOND = 253_402_300_799
+"""Of the year 9999, after which there are no dates."""
+
+
 def _check_environment() -> None:
     """Raise where a variable that the libraries read is no whole number, each for itself and late."""
-    for name, least in (("NUMBA_NUM_THREADS", 1), ("SOURCE_DATE_EPOCH", 0)):
+    for name, least, most in (
+        ("NUMBA_NUM_THREADS", 1, _MOST_THREADS),
+        ("SOURCE_DATE_EPOCH", 0, _LAST_SECOND),
+    ):
         value = os.environ.get(name)
-        if value and not (value.isascii() and value.isdigit() and int(value) >= least):
-            message = f"must be a whole number of at least {least} (got {value!r}): unset it"
+        if value and not (re.fullmatch("[0-9]{1,12}", value) and least <= int(value) <= most):
+            message = f"must be a whole number from {least} to {most} (got {quoted(value)}): unset it"
             raise CaseError([Fault(message, "", f"environment variable {name}")])
 
 

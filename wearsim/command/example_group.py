@@ -25,7 +25,7 @@ class ExampleGroup(click.Group):
             width = max(len(command.name or "") for command in commands)
             longest = max(map(len, commands.values()))
             with formatter.section(group):
-                lead = min(formatter.current_indent + width + 2, formatter.width - longest)
+                lead = max(0, min(formatter.current_indent + width + 2, formatter.width - longest))
                 for command, example in commands.items():
                     formatter.write_dl([((command.name or "").ljust(width), command.short_help or "")])
                     formatter.write(f"{'':{lead}}{example}\n")

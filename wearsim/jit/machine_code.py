@@ -21,6 +21,9 @@ from wearsim.jit.signatures import Signature
 _HASH = 32
 """Bytes of a hash."""
 
+_MOST_BYTES = 100_000_000
+"""Of a sealed file."""
+
 FROM_PYTHON = (
     *("acos", "asin", "atan", "atan2", "ceil", "cos", "exp", "expm1", "floor", "fmod", "log", "log1p"),
     *("memcpy", "memmove", "memset", "pow", "sin", "sqrt", "tan", "tanh", "trunc"),
@@ -102,7 +105,8 @@ def sealed(content: bytes, label: str) -> bytes:
 def unsealed(path: Path, label: str) -> bytes | None:
     """Return the content of a file sealed under a label; nothing where there is none, or another."""
     try:
-        whole = path.read_bytes() if path.is_file() else b""  # a pipe would be waited for
+        # A pipe would be waited for, and another's file may have any size.
+        whole = path.read_bytes() if path.is_file() and path.stat().st_size <= _MOST_BYTES else b""
     except OSError:
         return None
     content = whole[_HASH:]

@@ -119,7 +119,7 @@ def named_beside(path: Path, name: str) -> Path:
 def _content(path: Path) -> bytes | None:
     """What is there, empty where it cannot be read; None where there is nothing."""
     try:
-        return path.read_bytes()
+        return given_bytes(path)
     except FileNotFoundError:
         return None
     except OSError:

@@ -12,7 +12,18 @@ from typing import Any
 from wearsim._version import ANSWER_HEAD
 from wearsim.errors import OutputError
 from wearsim.extras import library
-from wearsim.files import MARKER, check_free, left_beside, mark, new_file, write_file, written
+from wearsim.files import (
+    MARKER,
+    MOST_BYTES,
+    check_free,
+    check_given,
+    given_bytes,
+    left_beside,
+    mark,
+    new_file,
+    write_file,
+    written,
+)
 from wearsim.runner.design import Design, content_hash
 from wearsim.runner.shard import TEXTS, Rows, Shard
 
@@ -46,6 +57,9 @@ class Store:
             return None
         arrow = library("pyarrow", "parquet", "--out")
         try:
+            check_given(path)
+            if _is_large(parquet.read_metadata(path), shard):
+                raise ValueError
             table = parquet.read_table(path)
             rows: Rows = table.to_pydict()
             written = (table.schema.metadata or {}).get(_HASH)
@@ -79,9 +93,16 @@ class Store:
         except OSError as error:
             reason = error.strerror or error
             raise OutputError(
-                f"{path.parent}: must be writable: {reason}; what is finished is kept, run the same "
+                f"{path}: must be writable: {reason}; what is finished is kept, run the same "
                 "command again to go on"
             ) from None
+
+
+def _is_large(metadata: Any, shard: Shard) -> bool:
+    """Tell whether a file of Parquet holds more than the rows of a shard, before it is read."""
+    groups = [metadata.row_group(number) for number in range(metadata.num_row_groups)]
+    size: int = sum(group.total_byte_size for group in groups)
+    return size > MOST_BYTES or bool(metadata.num_rows != shard.count)
 
 
 def open_store(folder: Path, design: Design, identity: Mapping[str, Any], force: bool) -> Store:
@@ -121,7 +142,7 @@ def _own_manifest(folder: Path, text: str, force: bool) -> str | None:
     try:
         own = written(folder)
         ours = MANIFEST in own and place.exists()
-        old = place.read_bytes().decode("utf-8", "replace") if ours else None
+        old = given_bytes(place).decode("utf-8", "replace") if ours else None
         own |= {path.name for name in (MARKER, MANIFEST) for path in left_beside(folder / name)}
         foreign = folder.exists() and (not folder.is_dir() or {path.name for path in folder.iterdir()} - own)
     except OSError as error:

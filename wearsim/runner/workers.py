@@ -17,6 +17,7 @@ from typing import Any, Protocol
 
 from wearsim.errors import StudyError
 from wearsim.extras import library
+from wearsim.files import given_text
 
 _PATIENCE = 30.0
 """Seconds in which the first worker of a cluster must show up."""
@@ -179,7 +180,7 @@ class SharedWorkers:
 def _address(place: str) -> str:
     """Address in the file of a scheduler."""
     try:
-        found = json.loads(Path(place).read_text(encoding="utf-8"))["address"]
+        found = json.loads(given_text(Path(place)))["address"]
     except (OSError, ValueError, KeyError, TypeError):
         found = None
     if not isinstance(found, str):

@@ -14,6 +14,10 @@ from numpy.typing import NDArray
 from PIL import ExifTags, Image, ImageOps, UnidentifiedImageError
 
 from wearsim.errors import CaseError, Fault
+from wearsim.files import check_given
+
+_MOST_BYTES = 1_000_000_000
+"""Of a picture: a TIFF has all its pixels as they are."""
 
 MOST_PIXELS = 80_000_000
 """Pixels of the largest picture that is decoded: it takes about 1 GB meanwhile, and 8 s."""
@@ -48,6 +52,11 @@ class Photograph:
 
 def read_photograph(path: Path) -> Photograph:
     """Return the picture in a file; raise CaseError for what is none, is damaged, too large or too small."""
+    try:
+        check_given(path, _MOST_BYTES)
+    except OSError as error:
+        text = f"must be a picture, but cannot be opened ({error.strerror}): check the path"
+        raise bad_photograph(str(path), text) from None
     with _faults(path), path.open("rb") as file:
         return _decoded(file, path)
 
