@@ -26,9 +26,9 @@ def runs(tmp_path_factory):
         ),
         "drive": tomllib.loads(TWO_SPROCKETS),
     }
-    return {
-        name: simulate(load_case(case)).save(folder / name) or folder / name for name, case in tables.items()
-    }
+    for name, case in tables.items():
+        simulate(load_case(case)).save(folder / name)
+    return {name: folder / name for name in tables}
 
 
 def _message(load, folder):
@@ -72,9 +72,36 @@ def test_damage(cli, runs, kind, tmp_path):
         ("result.json", '"updates"', '"update"', "result.json: updates must be given"),
         ("result.json", '"max_depth_mm": ', '"max_depth_mm": -', "result.json: max_depth_mm must be"),
         ("result.json", '"stop_value": ', '"stop_value": 1e400, "old": ', "result.json: stop_value must be"),
+        (
+            "result.json",
+            '"stop": "critical_depth_mm"',
+            '"stop": "zzz"',
+            "result.json: stop must be critical_depth_mm",
+        ),
+        (
+            "result.json",
+            '"hours_run": ',
+            '"hours_run": 0, "old": ',
+            "result.json: hours_run must be greater than 0",
+        ),
+        (
+            "result.json",
+            '"parts": {',
+            '"parts": {"chain": {"cycles": 1, "hours": 1}',
+            "result.json: parts must be",
+        ),
         ("flank.csv", "\n0.0,1,", "\n0.0,1.5,", "flank.csv: node must be a whole number in every row"),
         ("flank.csv", "\n0.0,1,", "\n0.0,1,inf", "flank.csv"),
         ("history.csv", "\n0.0,0.0,", "\n1e9,0.0,", "history.csv: cycles must rise from row to row"),
+        (
+            "history.csv",
+            "\n0.0,0.0,0.0,",
+            "\n0.0,0.0,hunter2,",
+            "history.csv, line 2: max_depth_mm must be a number:",
+        ),
+        ("history.csv", "\n0.0,", "\n0.0\n0.0,", "history.csv, line 2: must have 7 cells, has 1"),
+        ("case.lock.toml", "[stop]", "[stopped]", "case.lock.toml: stop must be given"),
+        ("case.lock.toml", 'kind = "strand"', "", "case.lock.toml: mechanism.kind must be given"),
         (
             "case.lock.toml",
             "speed_rpm = 100.0",
@@ -98,3 +125,11 @@ def test_what_is_wrong_is_named(cli, runs, tmp_path, file, old, new, words):
         assert done.code == 2
         assert words in done.err
         assert "run its case again" in done.err
+
+
+def test_times_that_stand_still_are_named(cli, runs, tmp_path):
+    work = shutil.copytree(runs["strand"], tmp_path / "run")
+    head, row, *rows = (work / "history.csv").read_text("utf-8").splitlines()
+    (work / "history.csv").write_text("\n".join([head, row, row, *rows, ""]), "utf-8")
+    done = cli("compare", work)
+    assert done.code == 2 and "history.csv: cycles must rise in every row" in done.err

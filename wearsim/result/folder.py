@@ -2,12 +2,10 @@
 
 import copy
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, fields
 from pathlib import Path, PurePosixPath
 from typing import Any
-
-import numpy as np
 
 from wearsim.chain.rating_findings import RatingFinding
 from wearsim.errors import OutputError
@@ -19,7 +17,8 @@ from wearsim.input.named_files import FILE_KEYS, file_paths
 from wearsim.quantities import quantities
 from wearsim.result.lives import Life, LimitState, LowerBound
 from wearsim.result.second_opinions import read_opinions
-from wearsim.result.stored_values import check_flank, check_history, check_inputs, check_values
+from wearsim.result.stored_tables import table_columns
+from wearsim.result.stored_values import check_flank, check_history, check_inputs, check_parts, check_values
 
 SCHEMA_VERSION = 1
 
@@ -142,10 +141,13 @@ def _stored(folder: Path) -> dict[str, Any]:
     check_values("result.json", stored)
     mechanism = mechanism_of(lock)
     check_inputs("case.lock.toml", of_one_sprocket(lock), mechanism)
+    check_parts("result.json", stored, mechanism)
     inputs = with_files(lock, "")
     files = {name: given_text(folder / _INPUTS / name, "surrogateescape") for name in _named(inputs)}
-    history = _read_columns(folder / "history.csv", mechanism.history, check_history)
-    flank = _read_columns(folder / "flank.csv", mechanism.flank, check_flank)
+    history = table_columns(
+        "history.csv", given_text(folder / "history.csv"), mechanism.history, check_history
+    )
+    flank = table_columns("flank.csv", given_text(folder / "flank.csv"), mechanism.flank, check_flank)
     found = fields_of_result(stored, inputs, files, history, flank)
     environment = _json(folder / "environment.json")
     if not all(isinstance(version, str) for version in environment.values()):
@@ -233,23 +235,3 @@ def of_one_sprocket(inputs: Mapping[str, Any]) -> dict[str, Any]:
 def _write_json(path: Path, value: Mapping[str, Any]) -> None:
     text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
     path.write_text(text + "\n", encoding="utf-8")
-
-
-def _read_columns(
-    path: Path, least: tuple[str, ...], check: Callable[[str, Mapping[str, Vector]], None]
-) -> dict[str, Vector]:
-    """Columns of a table by the names in its head: those that it has at least, and any other quantity."""
-    head, _, body = given_text(path).partition("\n")
-    # Twice, as two empty cells beside each other share a comma.
-    filled = body.replace(",,", ",nan,").replace(",,", ",nan,").replace(",\n", ",nan\n")
-    rows = filled.splitlines()
-    names = head.split(",")
-    whole = set(least) <= set(names) <= quantities().keys() and len(set(names)) == len(names)
-    if not rows or not whole:
-        raise ValueError(f"{path.name} must hold rows of {', '.join(least)}")
-    table = np.loadtxt(rows, delimiter=",", comments=None, ndmin=2)
-    columns = dict(zip(names, np.ascontiguousarray(table.T), strict=True))
-    check(path.name, columns)
-    return {
-        name: cells.astype(int) if name in ("node", "gap_kind") else cells for name, cells in columns.items()
-    }

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from wearsim.contact.stop_limits import LIMITS
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.faults import validation_faults
 from wearsim.input.mechanism_registry import MechanismEntry
@@ -15,6 +16,7 @@ _LARGEST = 1e100
 
 _Number = Annotated[float, Field(ge=-_LARGEST, le=_LARGEST)]
 _Amount = Annotated[float, Field(ge=0.0, le=_LARGEST)]
+_AboveZero = Annotated[float, Field(gt=0.0, le=_LARGEST)]
 
 
 class _Model(BaseModel):
@@ -91,8 +93,8 @@ class StoredResult(_Model):
     band: str
     stop: str
     stop_value: _Number
-    cycles_run: _Amount
-    hours_run: _Amount
+    cycles_run: _AboveZero
+    hours_run: _AboveZero
     speed_rpm: _Amount
     method: str
     updates: Annotated[int, Field(ge=0)]
@@ -125,6 +127,23 @@ def check_values(file: str, values: Mapping[str, Any]) -> None:
             first["msg"].replace("Input should be", "must be").replace("Field required", "must be given")
         )
         raise ValueError(f"{file}: {key} {message}") from None
+    reached = "hours" in values["lives"]["life"]
+    ends = LIMITS if reached else ("horizon_hours",)
+    if values["stop"] not in ends:
+        raise ValueError(f"{file}: stop must be {' or '.join(ends)}")
+
+
+def check_parts(file: str, values: Mapping[str, Any], mechanism: MechanismEntry) -> None:
+    """Raise `ValueError` where the parts of a result are not those that wear in its case."""
+    worn = {"chain", "sprocket"} if "chain" in mechanism.history else set()
+    given = {
+        "parts": {name for name in values["parts"] if not name.endswith("_fatigue")},
+        "bands": set(values["bands"]),
+        "practice": {"chain", "sprocket"} if values.get("practice") else worn,
+    }
+    for key, names in given.items():
+        if names != worn:
+            raise ValueError(f"{file}: {key} must be those of the case in case.lock.toml")
 
 
 def check_inputs(file: str, inputs: Mapping[str, Any], mechanism: MechanismEntry) -> None:
@@ -136,21 +155,29 @@ def check_inputs(file: str, inputs: Mapping[str, Any], mechanism: MechanismEntry
         if any(fault["type"] != "extra_forbidden" for fault in error.errors(include_url=False)):
             key, message, _ = next(validation_faults(error, model))
             raise ValueError(f"{file}: {key} {message}") from None
+    given = {"mechanism.kind": "kind" in inputs.get("mechanism", {}), "stop": "stop" in inputs}
+    for key, there in given.items():
+        if not there:
+            raise ValueError(f"{file}: {key} must be given")
 
 
-_WHOLE = "node", "gap_kind"
+WHOLE = "node", "gap_kind"
+"""Columns of whole numbers."""
+
 _FINITE = (
-    *(*_WHOLE, "cycles", "time_hours", "max_depth_mm", "arc_length_mm", "x_mm", "y_mm", "depth_mm"),
+    *(*WHOLE, "cycles", "time_hours", "max_depth_mm", "arc_length_mm", "x_mm", "y_mm", "depth_mm"),
     *("wheel_x_mm", "wheel_y_mm", "wheel_depth_mm"),
 )
 """Columns without empty cells; others have some where nothing touches."""
 
 
 def check_history(file: str, columns: Mapping[str, Vector]) -> None:
-    """Raise `ValueError` where times fall or a cell holds no number."""
+    """Raise `ValueError` where times do not rise or a cell holds no number."""
     _check_numbers(file, columns)
     for name in ("cycles", "time_hours"):
         _check_rising(file, name, columns[name])
+    if not (np.diff(columns["cycles"]) > 0.0).all():
+        raise ValueError(f"{file}: cycles must rise in every row")
 
 
 def check_flank(file: str, columns: Mapping[str, Vector]) -> None:
@@ -159,7 +186,7 @@ def check_flank(file: str, columns: Mapping[str, Vector]) -> None:
     cycles = columns["cycles"]
     _check_rising(file, "cycles", cycles)
     times, sizes = np.unique(cycles, return_counts=True)
-    named = [columns[name] for name in _WHOLE if name in columns]
+    named = [columns[name] for name in WHOLE if name in columns]
     alike = times.size > 1 and bool((sizes == sizes[0]).all())
     if not alike or any(np.ptp(rows.reshape(times.size, -1), axis=0).any() for rows in named):
         raise ValueError(f"{file}: must hold the same points at two or more times")
@@ -169,7 +196,7 @@ def _check_numbers(file: str, columns: Mapping[str, Vector]) -> None:
     for name, cells in columns.items():
         if (np.abs(cells) > _LARGEST).any() or (name in _FINITE and np.isnan(cells).any()):
             raise ValueError(f"{file}: {name} must be a finite number in every row")
-        if name in _WHOLE and (cells != np.trunc(cells)).any():
+        if name in WHOLE and (cells != np.trunc(cells)).any():
             raise ValueError(f"{file}: {name} must be a whole number in every row")
 
 
