@@ -222,7 +222,7 @@ def test_commands_take_the_run_of_a_drive(cli, run_of_two, tmp_path):
     [
         ("drive.json", '"schema_version": 1', '"schema_version": 9', "must have schema_version 1, has 9"),
         ("drive.json", '"case"', '"cases"', "a value in drive.json is missing or of another kind"),
-        ("drive.json", "{", "", "cannot be read"),
+        ("drive.json", "{", "", "drive.json is not readable JSON"),
         (
             "drive.lock.toml",
             "power_kW = 1.3",
@@ -231,6 +231,7 @@ def test_commands_take_the_run_of_a_drive(cli, run_of_two, tmp_path):
         ),
         ("drive.lock.toml", "[load]", "[lod]", "lod: unknown table"),
         ("parts/roll/history.csv", "cycles", "cycle", "roll: must be the folder of a result"),
+        ("drive.json", '"title": "', '"title": "My ', "drive.json must be as wearsim wrote it"),
         ("parts/roll/result.json", None, None, "result.json: No such file"),
     ],
 )
@@ -245,6 +246,14 @@ def test_run_of_a_drive_that_was_changed_is_refused(cli, run_of_two, tmp_path, f
     done = cli("compare", tmp_path / "run")
     assert done.code == 2 and words in done.err, done.err
     assert "Traceback" not in done.err
+
+
+def test_run_of_a_drive_with_a_part_elsewhere_is_refused(run_of_two, tmp_path):
+    run = shutil.copytree(run_of_two[0], tmp_path / "run")
+    (run / "parts" / "roll").rename(tmp_path / "roll")
+    (run / "parts" / "roll").symlink_to(tmp_path / "roll")
+    with pytest.raises(wearsim.WearsimError, match=r"parts/roll/result.json must lie in this folder"):
+        wearsim.DriveLife.load(run)
 
 
 def test_run_of_a_drive_replaces_itself_only(cli, run_of_two, tmp_path):

@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 import wearsim
-from tests import drives
+from tests import damage, drives
 from wearsim.cli.schema import result_schema
 from wearsim.drive.load_case import load_case
 from wearsim.errors import LimitNotReachedError, OutputError
@@ -265,6 +265,62 @@ def test_broken_folder(results, tmp_path, how):
     BROKEN[how](copy)
     with pytest.raises(OutputError, match="run: "):
         WearResult.load(copy)
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("result.json", '"warnings": [', '"warnings": ["of mine", '),
+        ("case.lock.toml", "nodes = 51", "nodes = 61"),
+        ("environment.json", '"wearsim": "', '"wearsim": "9.'),
+        ("history.csv", "\n0.0,0.0,0.0,", "\n0.0,0.0,1e-9,"),
+        ("flank.csv", "\n0.0,1,0.0,", "\n0.0,1,1e-9,"),
+        ("inputs/flank.csv", "\n", "\n\n"),
+    ],
+)
+def test_folder_that_was_changed(results, tmp_path, name, old, new):
+    """Values that could be right all the same; without digests, as in folders of before, they are."""
+    copy = shutil.copytree(results("points")[1], tmp_path / "run")
+    replaced(name, old, new)(copy)
+    with pytest.raises(OutputError, match=f": {name} must be as wearsim wrote it .*: run its case again"):
+        WearResult.load(copy)
+    damage.without_digests(copy)
+    WearResult.load(copy)
+
+
+def test_folder_with_a_file_of_another_run(results, tmp_path):
+    copy = shutil.copytree(results("strand")[1], tmp_path / "run")
+    shutil.copy(results("per_cycle")[1] / "result.json", copy)
+    with pytest.raises(OutputError, match="is changed or of another run"):
+        WearResult.load(copy)
+
+
+def test_folder_keeps_its_digests_under_other_line_ends(results, tmp_path):
+    """As a checkout on Windows has them, or an editor that lays out JSON otherwise."""
+    result, folder = results("points")
+    copy = shutil.copytree(folder, tmp_path / "run")
+    for path in [path for path in copy.rglob("*.*") if path.is_file()]:
+        path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    (copy / "result.json").write_text(json.dumps(json.loads((copy / "result.json").read_text("utf-8"))))
+    assert WearResult.load(copy).life == result.life
+
+
+@pytest.mark.parametrize(
+    "name", ["result.json", "case.lock.toml", "history.csv", "inputs/flank.csv", "inputs"]
+)
+def test_folder_with_a_link_out_of_it(results, tmp_path, name):
+    """What it leads to is not read, nor quoted; links within the folder are as good as files."""
+    copy = shutil.copytree(results("points")[1], tmp_path / "run")
+    (copy / name).rename(tmp_path / "elsewhere")
+    (copy / name).symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(OutputError, match=f": {name}.* must lie in this folder, but is a link out of it"):
+        WearResult.load(copy)
+    with wearsim.allow_outside():
+        WearResult.load(copy)
+    (copy / name).unlink()
+    (tmp_path / "elsewhere").rename(copy / "elsewhere")
+    (copy / name).symlink_to(copy / "elsewhere")
+    WearResult.load(copy)
 
 
 def test_no_folder(tmp_path):

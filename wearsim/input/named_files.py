@@ -68,12 +68,16 @@ def allow_outside() -> Iterator[None]:
         _allowed[0] = before
 
 
+def lies_inside(folder: Path, name: str) -> bool:
+    """Return whether a file lies in a folder or below it, as far as it must; a link by what it leads to."""
+    if _allowed[0] or "\0" in name:
+        return True
+    return Path(os.path.realpath(folder / name)).is_relative_to(os.path.realpath(folder))
+
+
 def outside_fault(folder: Path, name: str) -> str:
     """Return what is wrong with a file that an input names out of its folder; empty where nothing is."""
-    if _allowed[0] or "\0" in name:
-        return ""
-    inside = Path(os.path.realpath(folder))
-    if Path(os.path.realpath(folder / name)).is_relative_to(inside):
+    if lies_inside(folder, name):
         return ""
     return (
         "must name a file in the folder of the input or below it: copy it there, or if you trust the input "

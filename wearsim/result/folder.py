@@ -10,12 +10,13 @@ from typing import Any
 from wearsim.chain.rating_findings import RatingFinding
 from wearsim.errors import OutputError
 from wearsim.extras import library
-from wearsim.files import given_text, new_folder
+from wearsim.files import new_folder
 from wearsim.geometry.profile_points import Vector
 from wearsim.input.mechanism_registry import mechanism_of
 from wearsim.input.named_files import FILE_KEYS, file_paths
 from wearsim.quantities import quantities
 from wearsim.result.lives import Life, LimitState, LowerBound
+from wearsim.result.run_files import RunFiles, with_digests
 from wearsim.result.second_opinions import read_opinions
 from wearsim.result.stored_tables import table_columns
 from wearsim.result.stored_values import check_flank, check_history, check_inputs, check_parts, check_values
@@ -23,6 +24,7 @@ from wearsim.result.stored_values import check_flank, check_history, check_input
 SCHEMA_VERSION = 1
 
 _INPUTS = "inputs"
+_FILES = "case.lock.toml", "environment.json", "history.csv", "flank.csv"
 
 
 def write_result(
@@ -32,8 +34,7 @@ def write_result(
     import pandas as pd
 
     with new_folder(folder, force) as place:
-        _write_json(place / "result.json", stored_result(result, summary))
-        _write_json(place / "environment.json", result["environment"])
+        write_json(place / "environment.json", result["environment"])
         (place / "case.lock.toml").write_text(_lock(result["case"], result["inputs"]), encoding="utf-8")
         for name, text in result["input_files"].items():
             (place / _INPUTS).mkdir(exist_ok=True)
@@ -43,6 +44,9 @@ def write_result(
             pd.DataFrame(columns).to_csv(place / f"{name}.csv", index=False)
             if parquet:
                 write_parquet(place / f"{name}.parquet", columns)
+        read = (*_FILES, *(f"{_INPUTS}/{name}" for name in result["input_files"]))
+        stored = with_digests(stored_result(result, summary), place, "result.json", read)
+        write_json(place / "result.json", stored)
 
 
 def stored_result(result: Mapping[str, Any], summary: Mapping[str, Any]) -> dict[str, Any]:
@@ -107,51 +111,35 @@ def read_result(folder: Path) -> dict[str, Any]:
 
 def _no_result(folder: Path, why: str) -> OutputError:
     return OutputError(
-        f"{folder}: must be the folder of a result (result.json, case.lock.toml, environment.json, "
-        f"history.csv, flank.csv): {why}: run its case again"
+        f"{folder}: must be the folder of a result (result.json, {', '.join(_FILES)}): {why}: run its case "
+        "again"
     )
-
-
-def _json(path: Path) -> dict[str, Any]:
-    """Return the object in a file."""
-    try:
-        content = json.loads(given_text(path))
-    except ValueError as error:
-        raise ValueError(f"{path.name} is not readable JSON: {error}") from None
-    if not isinstance(content, dict):
-        raise ValueError(f"{path.name} must hold one JSON object")
-    return content
 
 
 def _stored(folder: Path) -> dict[str, Any]:
     """Return the fields of a result in a folder."""
-    import tomllib
-
-    stored = _json(folder / "result.json")
+    files = RunFiles(folder)
+    stored = files.json("result.json")
     version = stored.get("schema_version")
     if version != SCHEMA_VERSION:
         raise OutputError(
             f"{folder}: result.json must have schema_version {SCHEMA_VERSION}, has "
             f"{version!r}: read it with the wearsim that wrote it"
         )
-    try:
-        lock = tomllib.loads(given_text(folder / "case.lock.toml"))
-    except ValueError as error:
-        raise ValueError(f"case.lock.toml is not readable TOML: {error}") from None
+    lock = files.toml("case.lock.toml")
     check_values("result.json", stored)
     mechanism = mechanism_of(lock)
     check_inputs("case.lock.toml", of_one_sprocket(lock), mechanism)
     check_parts("result.json", stored, mechanism)
     inputs = with_files(lock, "")
-    files = {name: given_text(folder / _INPUTS / name, "surrogateescape") for name in _named(inputs)}
-    history = table_columns(
-        "history.csv", given_text(folder / "history.csv"), mechanism.history, check_history
-    )
-    flank = table_columns("flank.csv", given_text(folder / "flank.csv"), mechanism.flank, check_flank)
-    found = fields_of_result(stored, inputs, files, history, flank)
-    environment = _json(folder / "environment.json")
+    input_files = {name: files.text(f"{_INPUTS}/{name}", "surrogateescape") for name in _named(inputs)}
+    history = table_columns("history.csv", files.text("history.csv"), mechanism.history, check_history)
+    flank = table_columns("flank.csv", files.text("flank.csv"), mechanism.flank, check_flank)
+    found = fields_of_result(stored, inputs, input_files, history, flank)
+    environment = files.json("environment.json")
     if not all(isinstance(version, str) for version in environment.values()):
         raise ValueError("environment.json: must hold texts")
+    files.check("result.json", stored)
     return {**found, "environment": environment}
 
 
@@ -232,6 +220,7 @@ def of_one_sprocket(inputs: Mapping[str, Any]) -> dict[str, Any]:
     return own
 
 
-def _write_json(path: Path, value: Mapping[str, Any]) -> None:
+def write_json(path: Path, value: Mapping[str, Any]) -> None:
+    """Write an object into a file, a key a line."""
     text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
     path.write_text(text + "\n", encoding="utf-8")

@@ -114,6 +114,7 @@ class StoredResult(_Model):
     final_peak_pressure_MPa: _Amount
     assumptions: list[str]
     warnings: list[str]
+    sha256: dict[str, str] | None = None
 
 
 def check_values(file: str, values: Mapping[str, Any]) -> None:

@@ -3,7 +3,7 @@
 import copy
 import json
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,13 +13,14 @@ from wearsim.drive.drive_case import DriveCase
 from wearsim.drive.drive_result import DriveLife
 from wearsim.drive.load_case import load_drive
 from wearsim.errors import OutputError, WearsimError
-from wearsim.files import file_names, given_text, new_folder
-from wearsim.input.document import GivenInput, check_inside, leaves, text_of
+from wearsim.files import file_names, new_folder
+from wearsim.input.document import GivenInput, check_inside, leaves
 from wearsim.input.faults import Faults
-from wearsim.input.named_files import FILE_KEYS
+from wearsim.input.named_files import FILE_KEYS, file_paths
 from wearsim.report.drive.drive_json import drive_json
 from wearsim.result import WearResult
-from wearsim.result.folder import SCHEMA_VERSION, write_parquet
+from wearsim.result.folder import SCHEMA_VERSION, write_json, write_parquet
+from wearsim.result.run_files import RunFiles, with_digests
 
 _INPUTS, _PARTS = "inputs", "parts"
 _STORED, _LOCK = "drive.json", "drive.lock.toml"
@@ -29,18 +30,19 @@ _FILES = ("points_file", "dxf_file")
 def write_drive(found: DriveLife, folder: Path, force: bool, parquet: bool = False) -> None:
     """Write the lives of a drive, its input, and the history and the flanks of all sprockets."""
     with new_folder(folder, force) as place:
-        text = json.dumps(drive_json(found), indent=2, ensure_ascii=False, allow_nan=False)
-        (place / _STORED).write_text(text + "\n", encoding="utf-8")
-        (place / _LOCK).write_text(_lock(found, place), encoding="utf-8")
+        lock = _lock(found, place)
+        (place / _LOCK).write_text(lock, encoding="utf-8")
         for name in ("history", "flank"):
             table = getattr(found, name)
             table.to_csv(place / f"{name}.csv", index=False)
             if parquet:
                 columns = {column: table[column].to_numpy() for column in table}
                 write_parquet(place / f"{name}.parquet", columns)
-        for sprocket, part in _parts(found.drive, place).items():
-            if sprocket in found.results:
-                found.results[sprocket].save(part)
+        parts = {name: part for name, part in _parts(found.drive, place).items() if name in found.results}
+        for sprocket, part in parts.items():
+            found.results[sprocket].save(part)
+        others = _others(tomllib.loads(lock), parts.values(), place)
+        write_json(place / _STORED, with_digests(drive_json(found), place, _STORED, [_LOCK, *others]))
 
 
 def read_drive(folder: Path) -> DriveLife:
@@ -52,7 +54,7 @@ def read_drive(folder: Path) -> DriveLife:
     except OSError as error:
         raise _no_drive(folder, f"{Path(error.filename or folder).name}: {error.strerror or error}") from None
     except ValueError as error:
-        raise _no_drive(folder, f"{_STORED} or {_LOCK} cannot be read: {error}") from None
+        raise _no_drive(folder, str(error)) from None
     except (TypeError, AttributeError, LookupError):
         raise _no_drive(folder, f"a value in {_STORED} is missing or of another kind") from None
 
@@ -60,28 +62,31 @@ def read_drive(folder: Path) -> DriveLife:
 def _no_drive(folder: Path, why: str) -> OutputError:
     return OutputError(
         f"{folder}: must be the folder of a drive ({_STORED}, {_LOCK} and a folder for each sprocket in "
-        f"{_PARTS}): {why}"
+        f"{_PARTS}): {why}: run its case again"
     )
 
 
 def _stored(folder: Path) -> DriveLife:
-    stored = json.loads(given_text(folder / _STORED))
+    files = RunFiles(folder)
+    stored = files.json(_STORED)
     if stored["schema_version"] != SCHEMA_VERSION:
         raise OutputError(
             f"{folder}: {_STORED} must have schema_version {SCHEMA_VERSION}, has "
             f"{stored['schema_version']!r}: read it with the wearsim that wrote it"
         )
-    text = text_of(folder / _LOCK)
-    tables = tomllib.loads(text)
+    text, tables = files.text(_LOCK), files.toml(_LOCK)
     given = GivenInput(str(folder / _LOCK), stored["case"], folder, text, tables, tables)
     check_inside(given, Faults(given.file, text, ()))
     drive = load_drive(given)
     errors = {one["name"]: one["error"] for one in stored["sprockets"] if "error" in one}
-    parts = _parts(drive, folder)
-    results = {name: WearResult.load(part) for name, part in parts.items() if name not in errors}
+    parts = {name: part for name, part in _parts(drive, folder).items() if name not in errors}
+    for name in _others(tables, parts.values(), folder):
+        files.text(name, "surrogateescape")
+    results = {name: WearResult.load(part) for name, part in parts.items()}
     for one in drive.sprockets:
         if one.name in results:
             _check_same(folder, one.name, one.case.inputs, results[one.name].inputs)
+    files.check(_STORED, stored)
     return DriveLife(drive, results, {name: WearsimError(error) for name, error in errors.items()})
 
 
@@ -96,6 +101,13 @@ def _check_same(folder: Path, name: str, now: Mapping[str, Any], then: Mapping[s
             change = f"{key} of {name!r} was {before.get(key)!r} and is {after.get(key)!r} by this wearsim"
             lock = folder / _LOCK
             raise OutputError(f"{folder}: must be read as it was worn, but {change}: run {lock} again")
+
+
+def _others(tables: Mapping[str, Any], parts: Iterable[Path], folder: Path) -> list[str]:
+    """Return the names of the files of an input, and of the results of parts, in the folder of a drive."""
+    values = dict(leaves(tables))
+    inputs = [values[".".join(place)] for place in file_paths(tables)]
+    return [*inputs, *((part / "result.json").relative_to(folder).as_posix() for part in parts)]
 
 
 def _parts(drive: DriveCase, folder: Path) -> dict[str, Path]:
