@@ -1,5 +1,6 @@
 """Files that are none, places that lead nowhere, and an environment that says nonsense."""
 
+import json
 import os
 import shutil
 from pathlib import Path
@@ -175,3 +176,37 @@ def test_files_outside_the_folder_of_a_case(cli, tmp_path, arguments):
     refused = cli(*words)
     assert refused.code == 2
     assert f"{case}:24: sprocket.points_file: must name a file in the folder" in refused.err
+
+
+@pytest.fixture
+def no_utf_8(drive):
+    """Return the place of a case whose name holds a byte that is no UTF-8."""
+    path = drive()
+    return Path(shutil.copy(path, path.with_name(os.fsdecode(b"a\xffb.toml"))))
+
+
+def test_name_that_is_no_utf_8_is_printable(cli, no_utf_8, tmp_path):
+    run = tmp_path / "run"
+    done = cli("life", no_utf_8, "--out", run)
+    assert done.code == 0 and "a\ufffdb.toml" in done.out
+    assert done.out.encode()
+    assert json.loads((run / "result.json").read_text("utf-8"))["case"] == "a\ufffdb"
+    assert cli("export", no_utf_8, "--out", tmp_path / "wheel.dxf").code == 0
+
+
+def test_names_that_are_no_utf_8_tell_cases_apart(cli, drive, no_utf_8):
+    done = cli("compare", no_utf_8, drive())
+    assert done.code == 0 and "a\ufffdb.toml]" in done.out
+
+
+def test_missing_file_whose_name_is_no_utf_8(cli):
+    done = cli("life", os.fsdecode(b"none\xff.toml"), "--json")
+    assert done.code == BAD_INPUT
+    assert json.loads(done.out.encode())["case"] == "none\ufffd"
+
+
+def test_text_that_is_no_utf_8_is_refused(cli, drive, tmp_path):
+    for option in ("--project", "--set"):
+        text = os.fsdecode(b"title=a\xff")
+        done = cli("report", drive(), option, text, "--out", tmp_path / "sheet.html")
+        refused(done, f"'{option}': must be UTF-8 text")

@@ -9,15 +9,16 @@ import sys
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, TypeVar, cast, overload
 
 import click
 from click.core import ParameterSource
 
 from wearsim.command.complete import complete_setting
 from wearsim.errors import CaseError, Fault, GeometryError, OutputError, WearsimError
-from wearsim.input.named_files import allow_outside
+from wearsim.input.named_files import allow_outside, printable
 
 if TYPE_CHECKING:
     from wearsim.case.model import Case
@@ -47,8 +48,24 @@ def common_options(function: Function) -> Function:
         help="Print no warnings and no progress on stderr.",
     )(function)
     return click.option("--debug", is_flag=True, expose_value=False, help="Show the traceback of an error.")(
-        function
+        _with_whole_texts(function)
     )
+
+
+def _with_whole_texts(function: Function) -> Function:
+    """Have a command refuse texts on its line that are no UTF-8, which no page and no drawing can hold."""
+
+    @wraps(function)
+    def _checked(*arguments: Any, **values: Any) -> Any:
+        context = click.get_current_context()
+        for parameter in given_parameters(context):
+            value = context.params.get(parameter.name or "")
+            texts = value if isinstance(value, tuple) else (value,)
+            if any(isinstance(text, str) and text != printable(text) for text in texts):
+                raise click.BadParameter("must be UTF-8 text, but is not: type it anew", context, parameter)
+        return function(*arguments, **values)
+
+    return cast("Function", _checked)
 
 
 def overrides(function: Function) -> Function:
@@ -118,7 +135,7 @@ def given_parameters(context: click.Context) -> list[click.Parameter]:
 def warn(text: str) -> None:
     """Print a note on stderr unless ``-q`` was given."""
     if not click.get_current_context().find_root().meta.get("wearsim.quiet"):
-        click.echo(coloured(text), err=True)
+        click.echo(coloured(printable(text)), err=True)
 
 
 @contextmanager
@@ -210,7 +227,7 @@ def answer_text(result: "WearResult | DriveLife", source: str, explain: bool = F
 
 def print_json(content: Mapping[str, Any], source: Path, warnings: Iterable[str] = ()) -> None:
     """Print an object on one line of stdout, and warnings on stderr."""
-    click.echo(json.dumps(content, ensure_ascii=False, allow_nan=False))
+    click.echo(printable(json.dumps(content, ensure_ascii=False, allow_nan=False)))
     for text in warnings:
         warn(f"{source}: warning: {text}")
 
@@ -220,7 +237,7 @@ def show_error(error: WearsimError, path: Path | None = None) -> None:
     if "--debug" in sys.argv:
         traceback.print_exception(error)
     else:
-        click.echo(f"{path}: {error}" if path else str(error), err=True)
+        click.echo(printable(f"{path}: {error}" if path else str(error)), err=True)
 
 
 def show_failed_parts(results: "Mapping[Path, WearResult | DriveLife]") -> bool:
@@ -251,7 +268,7 @@ def error_json(case: str, error: WearsimError) -> str:
         "line": first.line or None,
         "key": first.key or override or None,
     }
-    return json.dumps({"schema_version": 1, "case": case, "error": content}, ensure_ascii=False)
+    return printable(json.dumps({"schema_version": 1, "case": case, "error": content}, ensure_ascii=False))
 
 
 def load_cases(paths: Sequence[Path], settings: Sequence[str], as_json: bool) -> "list[Case | DriveCase]":
@@ -310,4 +327,4 @@ def coloured(text: str) -> str:
 
 def show(text: str) -> None:
     """Print an answer on stdout."""
-    click.echo(coloured(text))
+    click.echo(coloured(printable(text)))

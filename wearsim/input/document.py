@@ -19,7 +19,7 @@ from wearsim.files import given_bytes
 from wearsim.input.column_files import with_column_files
 from wearsim.input.faults import Faults
 from wearsim.input.giving_way import remove_alternatives
-from wearsim.input.named_files import file_paths, outside_fault
+from wearsim.input.named_files import file_paths, outside_fault, printable
 from wearsim.input.table import CalculationTables, Table
 from wearsim.input.texts import in_line
 from wearsim.input.units import plain_tables
@@ -99,7 +99,8 @@ def _given(source: str | Path | CaseText | Mapping[str, Any]) -> GivenInput:
     path = source.path if isinstance(source, CaseText) else place_of_case(Path(source))
     text = source.text if isinstance(source, CaseText) else text_of(path)
     data = _parsed(path, text)
-    return GivenInput(str(path), "case" if path == STDIN else path.stem, path.parent, text, data, data)
+    name = "case" if path == STDIN else printable(path.stem)
+    return GivenInput(printable(str(path)), name, path.parent, text, data, data)
 
 
 def retitled(tables: Mapping[str, Any], written: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """Files that an input names, and the folder that they lie in."""
 
 import os.path
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -83,3 +84,18 @@ def outside_fault(folder: Path, name: str) -> str:
         "must name a file in the folder of the input or below it: copy it there, or if you trust the input "
         f"give --allow-outside, in Python `with wearsim.allow_outside():` (got {name!r:.60})"
     )
+
+
+_HALVES = re.compile("[\ud800-\udfff]")
+"""What stands in a name for bytes that are no UTF-8, which no file takes as text."""
+
+
+def printable(name: str) -> str:
+    r"""Return the name of a file as text that can be written anywhere.
+
+    Examples
+    --------
+    >>> printable("sprocket \udcff")
+    'sprocket \ufffd'
+    """
+    return _HALVES.sub("\ufffd", name)

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from wearsim.files import new_folder
+from wearsim.input.named_files import printable
 from wearsim.quantities import grouped
 from wearsim.report.answer import governing_text, headline, limit_text
 from wearsim.report.answer_table import AnswerTable, Column, life_columns
@@ -95,7 +96,9 @@ def distinct(results: list[WearResult], names: list[str]) -> list[WearResult]:
     """Return results whose titles tell them apart."""
     titles = [result.title for result in results]
     return [
-        replace(result, title=f"{result.title} [{name}]") if titles.count(result.title) > 1 else result
+        replace(result, title=f"{result.title} [{printable(name)}]")
+        if titles.count(result.title) > 1
+        else result
         for result, name in zip(results, names, strict=True)
     ]
 
@@ -104,7 +107,7 @@ def distinct_rows(results: list[WearResult], names: list[str]) -> list[WearResul
     """Return results whose titles and names of cases tell them apart."""
     cases = [result.case for result in results]
     return [
-        replace(result, case=name) if cases.count(result.case) > 1 else result
+        replace(result, case=printable(name)) if cases.count(result.case) > 1 else result
         for result, name in zip(distinct(results, names), names, strict=True)
     ]
 
