@@ -214,7 +214,7 @@ def test_a_user_without_a_home_has_no_kept_runs(cli, kept, monkeypatch):
         raise RuntimeError("could not determine the home directory")
 
     monkeypatch.delenv("WEARSIM_RUNS")
-    monkeypatch.setattr(kept_runs.platformdirs, "user_cache_dir", nowhere)
+    monkeypatch.setattr("platformdirs.user_cache_dir", nowhere)
     done = cli("life", "drive.toml")
     assert (done.code, done.err) == (0, "")
 

@@ -68,6 +68,14 @@ def _private(folder: Path) -> bool:
     return status.st_uid == os.getuid() and not status.st_mode & 0o077
 
 
+def user_cache() -> Path | None:
+    """Return the user's cache folder of wearsim; None for a user without a home."""
+    try:
+        return Path(platformdirs.user_cache_dir("wearsim"))
+    except RuntimeError:
+        return None
+
+
 def cache_folder() -> Path | None:
     """Return the folder that holds the machine code of these sources.
 
@@ -75,10 +83,10 @@ def cache_folder() -> Path | None:
     else a private folder under the temporary directory.
     """
     name = f"numba-{source_hash()}"
-    chosen = os.environ.get("NUMBA_CACHE_DIR") or platformdirs.user_cache_dir("wearsim")
-    folder = Path(chosen) / name
-    if _writable(folder):
-        return folder
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    parent = Path(chosen) if chosen else user_cache()
+    if parent and _writable(parent / name):
+        return parent / name
     shared = _temporary_folder()
     return shared / name if shared and _writable(shared / name) else None
 

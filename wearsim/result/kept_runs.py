@@ -17,11 +17,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import platformdirs
 
 import wearsim
 from wearsim.case.model import Case
 from wearsim.files import write_file
+from wearsim.jit.compiled import user_cache
 from wearsim.jit.machine_code import file_ending, sealed, unsealed
 from wearsim.result.folder import fields_of_result, stored_result, with_files
 from wearsim.result.wear_result import WearResult, environment
@@ -59,10 +59,8 @@ def runs_folder() -> Path | None:
     chosen = os.environ.get(FOLDER)
     if chosen is not None:
         return Path(chosen) if chosen else None
-    try:
-        return Path(platformdirs.user_cache_dir("wearsim")) / "runs"
-    except RuntimeError:  # a user without a home
-        return None
+    parent = user_cache()
+    return parent / "runs" if parent else None
 
 
 def kept_or_run(case: Case, run: Callable[[], WearResult]) -> WearResult:
