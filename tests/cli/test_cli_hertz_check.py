@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import wearsim.handbook.hertz_check.hertz_fem
+from wearsim.cli.handbook import HANDBOOK
 from wearsim.handbook.hertz_check.hertz_fem import FemContact
 
 CASE = Path(__file__).parents[2] / "cases" / "sizing" / "hertz-check-36-54.toml"
@@ -97,6 +98,23 @@ def test_finite_elements_are_shown(cli, tmp_path, solved):
         "handbook", "hertz-check", CASE, "--json", "--set", f"finite_elements.axis_file='{out}/fem_axis.csv'"
     )
     assert json.loads(again.out)["contact"]["axis_file"]["depth_von_mises_MPa"] == 450.0
+
+
+def test_stresses_that_lie_outside_are_read_where_that_is_allowed(cli, tmp_path):
+    """The one calculation whose input names a file: no other takes ``--allow-outside``."""
+    name, folder = f"{CASE.stem}-axis.csv", CASE.parent
+    path = tmp_path / "check.toml"
+    path.write_text(CASE.read_text("utf-8").replace(f'"{name}"', f'"{folder}/{name}"'), "utf-8")
+    refused = cli("handbook", "hertz-check", path)
+    assert refused.code == 2
+    assert "give --allow-outside" in refused.err
+    assert "axis_file: maximum von Mises" in cli("handbook", "hertz-check", path, "--allow-outside").out
+    takers = [
+        command.name
+        for command in HANDBOOK
+        if any("--allow-outside" in option.opts for option in command.params)
+    ]
+    assert takers == ["hertz-check"]
 
 
 def test_finite_elements_take_their_extra(cli, monkeypatch):

@@ -10,7 +10,7 @@ import click
 from wearsim._version import ANSWER_HEAD
 from wearsim.command.answered import Shown, shown_options
 from wearsim.command.complete import CasePath
-from wearsim.command.options import common_options, overrides, print_json, show, warn
+from wearsim.command.options import common_options, print_json, settings_option, show, warn
 
 if TYPE_CHECKING:
     from wearsim.report.calculation_sheet import CalculationSheet
@@ -30,7 +30,7 @@ def calculation(name: str, short_help: str, *options: Option) -> Callable[[Compu
             _show(replace(found, content={**ANSWER_HEAD, "case": case.stem, **found.content}), case, shown)
 
         _run.__doc__ = compute.__doc__
-        command: Callable[..., Any] = common_options(overrides(_run))
+        command: Callable[..., Any] = common_options(settings_option(_run))
         # Those of the calculation stand after those that all have.
         argument = click.argument("case", type=CasePath(path_type=Path), metavar="CASE")
         for option in (*options, shown_options("tables and pictures"), argument):

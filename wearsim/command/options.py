@@ -69,19 +69,25 @@ def _with_whole_texts(function: Function) -> Function:
 
 
 def overrides(function: Function) -> Function:
-    """Add ``--set`` and ``--allow-outside``, which every command that takes a CASE takes."""
+    """Add ``--set`` and ``--allow-outside``, which every command takes whose CASE may name files."""
+    return settings_option(outside_option(function))
 
+
+def outside_option(function: Function) -> Function:
     def _allow(context: click.Context, parameter: click.Parameter, allowed: bool) -> None:
         if allowed:
             context.with_resource(allow_outside())
 
-    function = click.option(
+    return click.option(
         "--allow-outside",
         is_flag=True,
         expose_value=False,
         callback=_allow,
         help="Read files that the case names also where they lie outside its folder.",
     )(function)
+
+
+def settings_option(function: Function) -> Function:
     return click.option(
         "--set",
         "settings",

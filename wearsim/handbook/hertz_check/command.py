@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from wearsim.command.calculation_command import calculation
-from wearsim.command.options import working
+from wearsim.command.options import outside_option, working
 
 if TYPE_CHECKING:
     from wearsim.handbook.hertz_check.hertz_fem import FemContact
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     click.option(
         "--fem", is_flag=True, help="Also solve the contact by finite elements (pip install 'wearsim[fem]')."
     ),
+    outside_option,
 )
 def hertz_check(case: Path, settings: tuple[str, ...], fem: bool) -> "CalculationSheet":
     """Compute the contact stress and the von Mises stresses of the teeth of CASE at the pitch point.
