@@ -1,14 +1,18 @@
 """Two thousand runs in one process: memory and open files before and after.
 
-``python research/soak.py`` (some minutes) draws strands, pairs of gears, tables of loads and coarse wraps by
-turns, as research/reliability.py does, and writes reports/reference/soak.md. ``--runs 100`` takes fewer and
-prints only.
+``python research/soak.py`` (about an hour) draws strands, pairs of gears, tables of loads and coarse
+wraps by turns, as research/reliability.py does, and writes reports/reference/soak.md. ``--runs 100`` takes
+fewer and prints only. The runs are made twice side by side: with glibc as it is, which gives each thread an
+arena of its own and keeps what is free at the end of it, and with MALLOC_ARENA_MAX=1, where all threads share
+one that is given back.
 """
 
 import argparse
 import ctypes
 import gc
+import json
 import os
+import subprocess
 import sys
 import tempfile
 import warnings
@@ -33,6 +37,26 @@ def resident() -> int:
     """Return the memory of this process that is in use [bytes]."""
     pages = Path("/proc/self/statm").read_text("ascii").split()[1]
     return int(pages) * os.sysconf("SC_PAGE_SIZE")
+
+
+class _Heap(ctypes.Structure):
+    """What mallinfo2 of glibc 2.33 and later tells of all arenas, in bytes: mallinfo(3)."""
+
+    _fields_ = tuple(
+        (name, ctypes.c_size_t)
+        for name in (
+            *("arena", "ordblks", "smblks", "hblks", "hblkhd"),
+            *("usmblks", "fsmblks", "uordblks", "fordblks", "keepcost"),
+        )
+    )
+
+
+def allocated() -> int:
+    """Return what is allocated from the C library and not freed yet [bytes]."""
+    mallinfo = ctypes.CDLL(None).mallinfo2
+    mallinfo.restype = _Heap
+    heap = mallinfo()
+    return int(heap.uordblks + heap.hblkhd)
 
 
 def open_files() -> int:
@@ -63,13 +87,11 @@ def slope_of(readings: list[int]) -> tuple[float, float]:
     return float(fit[0]), float(np.sqrt(spread[0, 0]))
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--runs", type=int, default=2000)
-    runs: int = parser.parse_args().runs
+def soaked(runs: int) -> dict[str, object]:
+    """Return the ends of the runs and the readings of memory, blocks and files."""
     warnings.simplefilter("ignore")
     ends: Counter[str] = Counter()
-    memory, blocks, files = [], [], []
+    memory, in_use, blocks, files = [], [], [], []
     with tempfile.TemporaryDirectory() as folder:
         for number in range(runs):
             ends[ended(number, Path(folder))] += 1
@@ -77,33 +99,89 @@ def main() -> None:
                 gc.collect()
                 ctypes.CDLL(None).malloc_trim(0)
                 memory.append(resident())
+                in_use.append(allocated())
                 blocks.append(sys.getallocatedblocks())
                 files.append(open_files())
-    slope, error = slope_of(memory)
-    more_blocks, blocks_error = slope_of(blocks)
+    return {"ends": ends, "memory": memory, "in_use": in_use, "blocks": blocks, "files": files}
+
+
+def side_by_side(runs: int) -> tuple[dict, dict]:
+    """Return what is read with an arena for each thread and with one for all."""
+    command = [sys.executable, __file__, "--runs", str(runs), "--readings"]
+    env = {name: value for name, value in os.environ.items() if not name.startswith("MALLOC_")}
+    both = [
+        subprocess.Popen(command, stdout=subprocess.PIPE, env={**env, **more})
+        for more in ({}, {"MALLOC_ARENA_MAX": "1"})
+    ]
+    own, one = (json.loads(process.communicate()[0]) for process in both)
+    return own, one
+
+
+def growth(readings: dict) -> str:
+    """Return two cells: bytes a run, in use and resident, each with its standard error."""
+    slopes = (slope_of(readings[name]) for name in ("in_use", "memory"))
+    return " | ".join(f"{slope:.0f} ± {error:.0f}" for slope, error in slopes)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--runs", type=int, default=2000)
+    parser.add_argument("--readings", action="store_true", help="of this process only, as JSON")
+    options = parser.parse_args()
+    if options.readings:
+        print(json.dumps(soaked(options.runs)))
+        return
+    own, one = side_by_side(options.runs)
     rows = "\n".join(
-        f"| {EVERY * number} | {used / 1e6:.1f} | {held} | {count} |"
-        for number, (used, held, count) in enumerate(zip(memory, blocks, files, strict=True), 1)
+        "| "
+        + " | ".join(
+            (
+                str(EVERY * number),
+                *(
+                    f"{readings[name][number - 1] / 1e6:.1f}"
+                    for readings in (own, one)
+                    for name in ("memory", "in_use")
+                ),
+                *(str(own[name][number - 1]) for name in ("blocks", "files")),
+            )
+        )
+        + " |"
+        for number in range(1, len(own["memory"]) + 1)
         if number % 5 == 0 or number == 1
     )
-    mixed = ", ".join(f"{count} {name}" for name, count in sorted(ends.items()))
+    mixed = ", ".join(f"{count} {name}" for name, count in sorted(own["ends"].items()))
+    blocks, blocks_error = slope_of(own["blocks"])
     text = f"""# Two thousand runs in one process
 
 Written by `python research/soak.py`: {mixed}.
-Each is saved and loaded. After the first quarter memory grows by {slope:.0f} bytes a run with a standard
-error of {error:.0f}, as it goes up and down by some megabytes ({SLOPE:.0f} allowed; the script fails where
-the slope is more by two standard errors), and blocks of Python's objects by {more_blocks:.2f} a run with
-one of {blocks_error:.2f}. {files[-1] - files[0]} more files are open at the end than
-at the first reading.
+Each is saved and loaded. Growth after the first quarter, bytes a run with the standard error ({SLOPE:.0f} are
+allowed, and two standard errors):
 
-| runs | memory, MB | blocks | open files |
-|---|---|---|---|
+| | in use (not freed) | resident |
+|---|---|---|
+| one arena for all threads (`MALLOC_ARENA_MAX=1`) | {growth(one)} |
+| an arena for each thread, as glibc does | {growth(own)} |
+
+Blocks of Python's objects grow by {blocks:.2f} ± {blocks_error:.2f} a run, and
+{own["files"][-1] - own["files"][0]} more files are open at the end than at the first reading.
+
+Nothing is asked of what is resident with an arena for each thread: wraps run in threads, and glibc keeps what
+is free at the end of such an arena, up to twice the largest block that was freed (mallopt(3),
+M_TRIM_THRESHOLD; 64 MB at most), whatever malloc_trim is told. It goes up when a larger wrap comes for the
+first time, and later wraps use it again.
+
+Memory in MB, blocks and open files after so many runs:
+
+| runs | resident | in use | resident, one arena | in use, one arena | blocks | open files |
+|---|---|---|---|---|---|---|
 {rows}
 """
-    if runs == 2000:
+    if options.runs == 2000:
         REPORT.write_text(text, "utf-8")
     print(text)
-    sys.exit(slope > SLOPE + 2.0 * error or files[-1] > files[0])
+    asked = [own["in_use"], one["in_use"], one["memory"]]
+    grows = any(slope > SLOPE + 2.0 * error for slope, error in map(slope_of, asked))
+    sys.exit(grows or any(readings["files"][-1] > readings["files"][0] for readings in (own, one)))
 
 
 if __name__ == "__main__":

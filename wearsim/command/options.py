@@ -74,6 +74,8 @@ def overrides(function: Function) -> Function:
 
 
 def outside_option(function: Function) -> Function:
+    """Add ``--allow-outside``, which lifts for the command that the files of a case lie in its folder."""
+
     def _allow(context: click.Context, parameter: click.Parameter, allowed: bool) -> None:
         if allowed:
             context.with_resource(allow_outside())
@@ -88,6 +90,7 @@ def outside_option(function: Function) -> Function:
 
 
 def settings_option(function: Function) -> Function:
+    """Add ``--set``, which gives the command ``settings``: keys of the case with their values."""
     return click.option(
         "--set",
         "settings",
