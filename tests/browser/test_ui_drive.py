@@ -122,6 +122,7 @@ def test_faults_and_new_tables_of_a_sprocket(watched, serve):
     assert page.locator(".ws-life-card.ws-old").count() == 1
     field(page, "sprocket.2.teeth").fill("20")
     settled(page)
+    page.locator(".q-field--error").wait_for(state="detached")
     page.locator(".ws-form").get_by_text("Sprocket: add one", exact=True).click()
     page.get_by_role("button", name="Add a table [[sprocket]]").click()
     page.get_by_text("Sprocket 3").wait_for()
@@ -165,6 +166,8 @@ def test_a_new_drive_is_that_of_wearsim_init(watched, serve, tmp_path):
     }
     for name, value in known.items():
         watched.locator(f'[data-known="{name}"]').fill(value)
+        if name == "chain":  # its list opens late on a busy machine, and would then lie over other fields
+            watched.get_by_role("option", name=value).first.wait_for()
         watched.keyboard.press("Tab")
     watched.locator('[data-known="shock"]').click()
     watched.get_by_role("option", name="moderate").click()
