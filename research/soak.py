@@ -132,43 +132,34 @@ def main() -> None:
         print(json.dumps(soaked(options.runs)))
         return
     own, one = side_by_side(options.runs)
+    bytes_held = (readings[name] for readings in (own, one) for name in ("memory", "in_use"))
     rows = "\n".join(
-        "| "
-        + " | ".join(
-            (
-                str(EVERY * number),
-                *(
-                    f"{readings[name][number - 1] / 1e6:.1f}"
-                    for readings in (own, one)
-                    for name in ("memory", "in_use")
-                ),
-                *(str(own[name][number - 1]) for name in ("blocks", "files")),
-            )
+        f"| {EVERY * number} | {' | '.join(f'{held / 1e6:.1f}' for held in megabytes)} | {blocks} | {files} |"
+        for number, (*megabytes, blocks, files) in enumerate(
+            zip(*bytes_held, own["blocks"], own["files"], strict=True), 1
         )
-        + " |"
-        for number in range(1, len(own["memory"]) + 1)
         if number % 5 == 0 or number == 1
     )
     mixed = ", ".join(f"{count} {name}" for name, count in sorted(own["ends"].items()))
-    blocks, blocks_error = slope_of(own["blocks"])
+    more_blocks, blocks_error = slope_of(own["blocks"])
     text = f"""# Two thousand runs in one process
 
 Written by `python research/soak.py`: {mixed}.
-Each is saved and loaded. Growth after the first quarter, bytes a run with the standard error ({SLOPE:.0f} are
-allowed, and two standard errors):
+Each is saved and loaded. Growth after the first quarter, bytes a run with its standard error (at most
+{SLOPE:.0f} and two standard errors are allowed):
 
 | | in use (not freed) | resident |
 |---|---|---|
 | one arena for all threads (`MALLOC_ARENA_MAX=1`) | {growth(one)} |
 | an arena for each thread, as glibc does | {growth(own)} |
 
-Blocks of Python's objects grow by {blocks:.2f} ± {blocks_error:.2f} a run, and
+Blocks of Python's objects grow by {more_blocks:.2f} ± {blocks_error:.2f} a run, and
 {own["files"][-1] - own["files"][0]} more files are open at the end than at the first reading.
 
-Nothing is asked of what is resident with an arena for each thread: wraps run in threads, and glibc keeps what
-is free at the end of such an arena, up to twice the largest block that was freed (mallopt(3),
-M_TRIM_THRESHOLD; 64 MB at most), whatever malloc_trim is told. It goes up when a larger wrap comes for the
-first time, and later wraps use it again.
+Resident memory with an arena for each thread has no limit here. Wraps run in threads, and glibc keeps the
+free end of such an arena, up to twice the largest block freed so far (mallopt(3), M_TRIM_THRESHOLD; 64 MB
+at most), even after malloc_trim. It rises when a larger wrap runs for the first time; later wraps use it
+again.
 
 Memory in MB, blocks and open files after so many runs:
 

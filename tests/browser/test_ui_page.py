@@ -613,7 +613,7 @@ def test_five_hundred_edits_leave_memory_threads_and_files(watched, serve, tmp_p
     """The last 300 leave less than 1 kB each: threads share one heap, whose free end is given back."""
     told = tmp_path / "told"
     (tmp_path / "sitecustomize.py").write_text(f"PLACE = {str(told)!r}\n{TOLD}")
-    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
     monkeypatch.setenv("MALLOC_ARENA_MAX", "1")
     monkeypatch.setenv("MALLOC_TRIM_THRESHOLD_", "131072")
     server = serve(STRAND)

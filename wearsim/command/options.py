@@ -74,7 +74,7 @@ def overrides(function: Function) -> Function:
 
 
 def outside_option(function: Function) -> Function:
-    """Add ``--allow-outside``, which lifts for the command that the files of a case lie in its folder."""
+    """Add ``--allow-outside``, with which a command also reads files outside the folder of its case."""
 
     def _allow(context: click.Context, parameter: click.Parameter, allowed: bool) -> None:
         if allowed:
